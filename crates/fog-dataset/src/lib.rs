@@ -1,0 +1,1 @@
+//! Frames and their records to files: layout, markers, resume and verification

@@ -1,0 +1,1 @@
+//! Pixel moments, AOV channels and sensor response

@@ -1,0 +1,1 @@
+//! Water, Mie series, droplet-size distributions, polydisperse averages and visibility laws

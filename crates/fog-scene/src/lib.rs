@@ -1,0 +1,1 @@
+//! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene

@@ -1,0 +1,1 @@
+//! Integrators and the tile scheduler: (scene, settings, seed) to film
