@@ -1,1 +1,30 @@
-fn main() {}
+//! `fogbank`: the command line. One file per subcommand under `commands`.
+//!
+//! Exit codes: 0 all is well, 1 a frame failed, 2 the user's mistake (arguments, configuration, files).
+
+mod args;
+mod commands;
+mod report;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    let result = match args.command {
+        args::Command::Sweep(args) => commands::sweep::run(&args),
+        args::Command::Render(args) => commands::render::run(&args),
+        args::Command::Plan(args) => commands::plan::run(&args),
+        args::Command::Schema => commands::schema::run(),
+        args::Command::Scene(args) => commands::scene::run(&args),
+        args::Command::Verify(args) => commands::verify::run(&args),
+    };
+    match result {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("fogbank: {error:#}");
+            let failed_frame = error.downcast_ref::<fogbank::Error>().is_some_and(|e| !e.is_user_mistake());
+            ExitCode::from(if failed_frame { 1 } else { 2 })
+        }
+    }
+}

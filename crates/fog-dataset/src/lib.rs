@@ -1,1 +1,52 @@
-//! Frames and their records to files: layout, markers, resume and verification
+//! Frames and their records to files, and back: layout, markers, resume and verification.
+//!
+//! A data set is a folder:
+//!
+//! | file | content |
+//! |---|---|
+//! | `dataset.json` | format, digests, hashes of the next two, and what the caller tells; claims the folder |
+//! | `config.resolved.yaml` | the configuration with every default written out |
+//! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
+//! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
+//! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`; mono frames `Y` |
+//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
+//! | `<id>.json` | the frame's record |
+//! | `<id>.timing.json` | seconds: the only file that differs between two runs |
+//! | `<id>.done` | marker: size and BLAKE3 hash of the frame's files; written last |
+//! | `<id>.failed.json` | why the frame failed; gone when it later succeeds |
+//! | `index.csv` | one line per frame of the plan, written by [`DataSet::finish`] |
+//!
+//! Every file is written aside, synced and renamed, so that it appears only when whole. Several processes may work in
+//! one folder: a frame's bytes depend on the frame alone, so it does not matter which of two writers wins. All bytes but
+//! the timings are reproducible; nothing here reads the clock but the age check of abandoned temporary files on
+//! file systems without locks.
+
+mod atomic;
+mod data_set;
+mod encode;
+mod error;
+mod estimate;
+mod exr_file;
+mod exr_header;
+mod frame_files;
+mod header;
+mod index;
+mod layers;
+mod marker;
+mod names;
+mod outputs;
+mod plan;
+mod read;
+mod verify;
+
+pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
+pub use error::{Error, Result};
+pub use estimate::estimate_bytes;
+pub use exr_file::{Attribute, Channel, read_exr_channels};
+pub use frame_files::FrameFiles;
+pub use header::{FORMAT, FORMAT_VERSION, Header};
+pub use marker::{FileEntry, Marker};
+pub use outputs::OutputSet;
+pub use plan::PlanFrame;
+pub use read::{StoredFrame, read_frame, read_header, read_plan};
+pub use verify::{Problem, Report, verify};

@@ -95,6 +95,10 @@ impl Problems {
         self.0.is_empty()
     }
 
+    pub(crate) fn into_vec(self) -> Vec<Problem> {
+        self.0
+    }
+
     /// `Ok` without problems.
     pub(crate) fn into_result(self) -> Result<(), PlanError> {
         if self.0.is_empty() { Ok(()) } else { Err(PlanError::Invalid(self.0)) }

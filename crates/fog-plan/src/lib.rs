@@ -1,1 +1,41 @@
-//! YAML to a checked schema to a plan of frames
+//! YAML to a checked schema to a plan of frames: the only crate that knows the configuration format.
+//!
+//! A configuration is one document that describes a frame, and axes that override dotted paths in it. [`load`] reads it
+//! into a [`Plan`], which makes each [`FrameSpec`] from its index. A mistake is reported with the place where it was
+//! written: every value is kept with its line and column until the frame is checked.
+//!
+//! Data path: text → `yaml` → tree of `node`s → `fill` (defaults) → `set` (`--set`, axes) → `read` and `de` (types of
+//! `schema`) → `validate` → [`FrameSpec`].
+
+mod axis;
+mod canonical;
+mod check;
+mod de;
+mod de_error;
+mod diff;
+mod error;
+mod fill;
+mod frame;
+mod identity;
+mod load;
+mod node;
+mod origin;
+mod plan;
+mod ranges;
+mod read;
+mod schema;
+mod set;
+mod sweep;
+mod validate;
+mod words;
+mod yaml;
+
+pub use error::{PlanError, Problem};
+pub use frame::{
+    CameraSpec, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, Output, Phase, RenderSpec,
+    SceneSpec, SensorSpec, SunSpec, Visibility,
+};
+pub use load::{load, parse};
+pub use origin::Origin;
+pub use plan::{AxisSummary, Plan};
+pub use schema::schema_json;

@@ -35,14 +35,6 @@ impl Node {
         Self { value, origin: origin.clone() }
     }
 
-    /// The entries of a map; none for any other kind.
-    pub(crate) fn entries(&self) -> &[Entry] {
-        match &self.value {
-            Value::Map(entries) => entries,
-            _ => &[],
-        }
-    }
-
     /// The value at `key` of a map, or at an index of a list.
     pub(crate) fn child(&self, key: &str) -> Option<&Node> {
         match &self.value {
@@ -135,9 +127,11 @@ impl Node {
             Value::Float(x) => (*x).into(),
             Value::Text(text) => text.as_str().into(),
             Value::List(items) => items.iter().map(Node::to_json).collect(),
-            Value::Map(entries) => {
-                entries.iter().map(|e| (e.key.clone(), e.node.to_json())).collect::<serde_json::Map<_, _>>().into()
-            }
+            Value::Map(entries) => entries
+                .iter()
+                .map(|e| (e.key.clone(), e.node.to_json()))
+                .collect::<serde_json::Map<_, _>>()
+                .into(),
         }
     }
 

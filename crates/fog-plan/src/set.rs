@@ -18,7 +18,7 @@ pub(crate) fn set(root: &mut Node, path: &str, key_origin: &Origin, value: Node)
         Some(axis) => vec!["sweep", "axes", axis],
         None => path.split('.').collect(),
     };
-    let (last, way) = keys.split_last().expect("split yields at least one part");
+    let Some((last, way)) = keys.split_last() else { return Ok(()) };
     let mut node = root;
     let mut walked = String::new();
     for key in way {

@@ -1,1 +1,25 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
+
+mod bvh;
+mod error;
+pub mod generate;
+mod geometry;
+mod gltf_load;
+mod material;
+mod texture;
+mod triangle;
+
+pub use bvh::Hit;
+pub use error::{SceneError, SceneErrorKind};
+pub use geometry::Geometry;
+pub use gltf_load::{Limits, LoadedScene, SceneObject, load};
+pub use material::{AlphaMask, AlphaMode, Material, SurfaceParameters, TextureRef};
+pub use texture::{Encoding, Filter, Image, Texture, Wrap};
+pub use triangle::{SurfacePoint, Triangle, offset_origin};
+pub mod bsdf;
+pub mod camera;
+pub mod emitters;
+pub mod light;
+pub mod medium;
+pub mod phase;
+pub mod scene;

@@ -1,1 +1,42 @@
-//! From one YAML file to a foggy data set: the main path and the Rust API
+//! Fogbank: from one YAML file to a foggy data set.
+//!
+//! The main path, top to bottom:
+//!
+//! 1. [`plan`] reads a configuration into a [`Plan`](fog_plan::Plan) of frames (`fog-plan`);
+//! 2. [`Resources`] builds or maps the optics tables (`fog-optics`, [`TableCache`]) and loads the scenes (`fog-scene`);
+//! 3. [`render_frame`] puts a frame's scene, fog and lights together and traces it (`fog-tracer`) onto films (`fog-film`);
+//! 4. [`sweep`] does so for every frame that is missing and stores it with its record (`fog-dataset`).
+//!
+//! ```no_run
+//! use fogbank::{Resources, Selection, Silent, TableCache};
+//! let plan = fogbank::plan::load("configs/quickstart.yaml".as_ref(), &[])?;
+//! let mut resources = Resources::new(TableCache::new("tables/cache"))?;
+//! let counts = fogbank::sweep(&plan, &Selection::All, "out".as_ref(), &mut resources, &Silent)?;
+//! assert_eq!(counts.failed, 0);
+//! # Ok::<(), fogbank::Error>(())
+//! ```
+
+mod error;
+mod fog;
+mod frame;
+mod lighting;
+mod progress;
+mod record;
+mod resources;
+mod sweep;
+mod table_cache;
+
+pub use error::Error;
+pub use fog::Fog;
+pub use fog_dataset as dataset;
+pub use fog_plan as plan;
+pub use fog_scene::generate;
+pub use frame::{Rendered, camera, render_frame, scene};
+pub use progress::{Event, Progress, Silent};
+pub use resources::Resources;
+pub use sweep::{Selection, output_set, path_count, sweep};
+pub use table_cache::{TableCache, TableOrigin};
+
+/// Digest of the sources, dependencies and tables that this program was built from: frames of equal specification and
+/// equal digest have equal bytes.
+pub const CODE_DIGEST: &str = env!("FOGBANK_CODE_DIGEST");

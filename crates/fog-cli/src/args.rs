@@ -1,0 +1,113 @@
+//! Arguments as they are typed.
+
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Synthetic camera data in fog whose every number can be traced to physics.
+#[derive(Debug, Parser)]
+#[command(name = "fogbank", version, about, after_help = EXAMPLES, max_term_width = 110)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  fogbank plan configs/quickstart.yaml                        list the frames without rendering
+  fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
+  fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
+  fogbank schema > fogbank.schema.json                        for completion and checks in an editor
+
+Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render every frame of a configuration into a data set, or finish one that was begun.
+    Sweep(SweepArgs),
+    /// Render one frame of a configuration into a data set.
+    Render(RenderArgs),
+    /// Show the frames of a configuration without rendering.
+    Plan(PlanArgs),
+    /// Print the JSON Schema of configurations, for editors.
+    Schema,
+    /// Write one of the built-in scenes as a GLB file.
+    Scene(SceneArgs),
+    /// Compare every file of a data set with its recorded hash.
+    Verify(VerifyArgs),
+}
+
+/// Which configuration.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ConfigArgs {
+    /// Configuration file (YAML; see `fogbank schema`).
+    pub(crate) config: PathBuf,
+    /// Override one value by its dotted path, as `--set fog.height_m=180`; may be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) sets: Vec<String>,
+}
+
+/// How to work.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct WorkArgs {
+    /// Folder of the data set; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Threads to render with [default: all cores]. Does not change a single byte of the result.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cache_dir: Option<PathBuf>,
+    /// Print errors only.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+/// Arguments of `sweep`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SweepArgs {
+    #[command(flatten)]
+    pub(crate) config: ConfigArgs,
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+}
+
+/// Arguments of `render`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) config: ConfigArgs,
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+    /// Frame of a sweep: its id, the beginning of its id, or its index from 0 (see `fogbank plan`).
+    #[arg(long, value_name = "ID")]
+    pub(crate) frame: Option<String>,
+}
+
+/// Arguments of `plan`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct PlanArgs {
+    #[command(flatten)]
+    pub(crate) config: ConfigArgs,
+    /// Print every frame with all its values, one JSON object per line.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `scene`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SceneArgs {
+    /// Name of the scene.
+    #[arg(value_parser = clap::builder::PossibleValuesParser::new(fogbank::generate::NAMES))]
+    pub(crate) name: String,
+    /// File to write [default: NAME.glb].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct VerifyArgs {
+    /// Folder of the data set.
+    pub(crate) dir: PathBuf,
+}

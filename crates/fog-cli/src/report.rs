@@ -1,0 +1,184 @@
+//! What the user sees while the work goes on: the plan, a progress bar with ETA on a terminal, lines elsewhere.
+
+use anyhow::Result;
+use fogbank::plan::Plan;
+use fogbank::{Event, Progress, TableOrigin};
+use indicatif::{HumanBytes, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Paths per second and thread that an estimate before rendering counts with: the quickstart's mean where it was measured
+/// (README). The bar's ETA takes over once paths are traced.
+const NOMINAL_PATHS_PER_SECOND: f64 = 200_000.0;
+/// Seconds between progress lines where no terminal shows a bar.
+const LINE_SECONDS: u64 = 10;
+
+/// Prints name, axes, size and estimates of a plan.
+pub(crate) fn print_plan(plan: &Plan, threads: usize) -> Result<()> {
+    let (mut paths, mut bytes) = (0u64, 0u64);
+    for frame in plan.frames() {
+        let frame = frame.map_err(fogbank::Error::from)?;
+        paths += fogbank::path_count(&frame);
+        let sensor = &frame.sensor;
+        bytes += fogbank::dataset::estimate_bytes(
+            sensor.width_px,
+            sensor.height_px,
+            fogbank::output_set(&frame),
+        );
+    }
+    let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
+    println!("{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" });
+    for axis in plan.axes() {
+        let more = axis.len.is_some_and(|n| n > axis.values.len());
+        println!("  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" });
+    }
+    let seconds = paths as f64 / (NOMINAL_PATHS_PER_SECOND * threads as f64);
+    println!(
+        "  about {} on {threads} thread{} for {:.1} million paths, about {} on disk",
+        HumanDuration(Duration::from_secs_f64(seconds.max(1.0))),
+        if threads == 1 { "" } else { "s" },
+        paths as f64 / 1e6,
+        HumanBytes(bytes),
+    );
+    Ok(())
+}
+
+/// Prints the main path's events.
+pub(crate) struct Reporter {
+    quiet: bool,
+    bar: ProgressBar,
+    failures: AtomicU64,
+    line: Mutex<Line>,
+}
+
+/// State of the lines that stand in for the bar.
+struct Line {
+    started: Instant,
+    printed: Instant,
+    paths: u64,
+    total: u64,
+    frames: usize,
+    todo: usize,
+}
+
+impl Reporter {
+    pub(crate) fn new(quiet: bool) -> Self {
+        let visible = !quiet && std::io::stderr().is_terminal();
+        let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let now = Instant::now();
+        let line = Line { started: now, printed: now, paths: 0, total: 0, frames: 0, todo: 0 };
+        Self {
+            quiet,
+            bar: ProgressBar::with_draw_target(None, target),
+            failures: AtomicU64::new(0),
+            line: Mutex::new(line),
+        }
+    }
+
+    /// Frames that failed.
+    pub(crate) fn failures(&self) -> u64 {
+        self.failures.load(Ordering::Relaxed)
+    }
+
+    /// Takes the bar off the screen.
+    pub(crate) fn close(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    fn say(&self, text: &str) {
+        if !self.quiet {
+            self.bar.suspend(|| println!("{text}"));
+        }
+    }
+
+    /// Counts paths; where there is no bar, now and then a line with the share done and the time left.
+    fn count(&self, paths: u64) {
+        self.bar.inc(paths);
+        let Ok(mut line) = self.line.lock() else { return };
+        line.paths += paths;
+        if self.bar.is_hidden() && line.printed.elapsed().as_secs() >= LINE_SECONDS && line.paths < line.total {
+            line.printed = Instant::now();
+            let share = line.paths as f64 / line.total as f64;
+            let left = line.started.elapsed().as_secs_f64() * (1.0 - share) / share;
+            let left = HumanDuration(Duration::from_secs_f64(left.max(1.0)));
+            self.say(&format!("  {:.0} %, {} of {} frames, about {left} left", 100.0 * share, line.frames, line.todo));
+        }
+    }
+
+    fn begin(&self, paths: u64, todo: usize) {
+        let style = "  {bar:40} {percent:>3} % {msg} ETA {eta}";
+        let style = ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar());
+        self.bar.reset();
+        self.bar.set_style(style);
+        self.bar.set_length(paths);
+        self.bar.enable_steady_tick(Duration::from_millis(500));
+        if let Ok(mut line) = self.line.lock() {
+            let now = Instant::now();
+            *line = Line { started: now, printed: now, paths: 0, total: paths, frames: 0, todo };
+        }
+    }
+
+    /// Number of this frame among those to be rendered.
+    fn next_frame(&self) -> String {
+        self.line.lock().map_or_else(
+            |_| String::new(),
+            |mut line| {
+                line.frames += 1;
+                format!("{}/{}", line.frames, line.todo)
+            },
+        )
+    }
+}
+
+impl Progress for Reporter {
+    fn event(&self, event: Event<'_>) -> bool {
+        match event {
+            Event::TableProgress(fraction) => {
+                self.bar.set_message(format!("optics table {:.0} %", 100.0 * fraction));
+                self.bar.tick();
+            }
+            Event::Table { name, origin, seconds } => self.say(&match origin {
+                TableOrigin::Found(path) => format!("optics table ({name}): {}", path.display()),
+                TableOrigin::Built { path, replaced } => {
+                    let why = replaced.as_ref().map(|r| format!("; the old file was damaged: {r}"));
+                    let why = why.unwrap_or_default();
+                    format!("optics table ({name}): built in {seconds:.1} s, {}{why}", path.display())
+                }
+                TableOrigin::Unstored { reason } => {
+                    format!("optics table ({name}): built in {seconds:.1} s, but not kept: {reason}")
+                }
+            }),
+            Event::Scene { path, triangles, warnings, seconds } => {
+                self.say(&format!("scene {}: {triangles} triangles, {seconds:.2} s", path.display()));
+                for warning in warnings {
+                    self.say(&format!("  warning: {warning}"));
+                }
+            }
+            Event::Warning(text) => self.say(&format!("warning: {text}")),
+            Event::Ready { done, paths, todo } => {
+                if done > 0 {
+                    self.say(&format!("{done} frames are done already, {todo} to go"));
+                }
+                self.begin(paths, todo);
+            }
+            Event::FrameStarted { id } => self.bar.set_message(id.to_owned()),
+            Event::Paths(n) => self.count(n),
+            Event::FrameDone { id, seconds, noise } => {
+                let n = self.next_frame();
+                self.say(&format!("{n:>7}  {id}  {seconds:.1} s, noise {:.1} %", 100.0 * noise));
+            }
+            Event::FrameFailed { id, reason, paths: _ } => {
+                self.failures.fetch_add(1, Ordering::Relaxed);
+                let n = self.next_frame();
+                self.bar.suspend(|| eprintln!("{n:>7}  {id}  FAILED: {reason}"));
+            }
+            Event::Finished { counts } => {
+                let (failed, missing) = (counts.failed, counts.missing);
+                self.say(&format!("{} frames done, {failed} failed, {missing} missing", counts.done));
+            }
+        }
+        true
+    }
+}

@@ -1,0 +1,53 @@
+//! The bytes of each file of a frame.
+
+use std::path::Path;
+
+use fog_film::{Channels, Frame};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use serde_json::{Value, json};
+
+use crate::exr_file::{Picture, encode};
+use crate::names::Kind;
+use crate::{Attribute, Error, FrameFiles, OutputSet, Result, layers};
+
+/// Bytes of one hashed file; `path` is only for messages.
+pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, path: &Path) -> Result<Vec<u8>> {
+    match kind {
+        Kind::Image => png(files.frame, files.exposure, path),
+        Kind::Hdr => encode(picture(files, layers::radiance(files.frame, outputs), true), path),
+        Kind::Truth => encode(picture(files, layers::truth(files.frame, outputs), false), path),
+        _ => Ok(pretty(files.record)),
+    }
+}
+
+/// `<id>.timing.json`: seconds, and samples (not pixels) per second, null when no time was measured.
+pub(crate) fn timing(files: &FrameFiles<'_>) -> Vec<u8> {
+    let samples = files.frame.samples as f64 * files.frame.pixel_count() as f64;
+    let rate = (files.seconds > 0.0).then(|| samples / files.seconds);
+    pretty(&json!({ "seconds": files.seconds, "samples_per_second": rate }))
+}
+
+/// Indented JSON and a newline.
+pub(crate) fn pretty(value: &Value) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
+}
+
+fn png(frame: &Frame, exposure: f32, path: &Path) -> Result<Vec<u8>> {
+    let mut out = Vec::new();
+    PngEncoder::new_with_quality(&mut out, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(&frame.to_srgb8(exposure), frame.width, frame.height, ExtendedColorType::Rgb8)
+        .map_err(Error::picture("encode", path))?;
+    Ok(out)
+}
+
+fn picture(files: &FrameFiles<'_>, channels: Vec<(String, Vec<f32>)>, radiance: bool) -> Picture {
+    let mut attributes = files.attributes.clone();
+    attributes.insert("frame_id".to_owned(), Attribute::Text(files.id.to_owned()));
+    attributes.insert("exposure".to_owned(), Attribute::Number(files.exposure));
+    if let Channels::Mono { wavelength_nm } = files.frame.channels {
+        attributes.insert("wavelength_nm".to_owned(), Attribute::Number(wavelength_nm));
+    }
+    let colour = radiance && files.frame.channels == Channels::Rgb;
+    Picture { width: files.frame.width, height: files.frame.height, channels, attributes, colour }
+}

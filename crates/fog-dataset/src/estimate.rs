@@ -1,0 +1,25 @@
+//! How much disk a frame takes.
+
+use crate::OutputSet;
+
+/// Rough size of a frame's files in bytes, for a plan's estimate.
+///
+/// Bytes per pixel are what RGB test frames of walls and ground at 16 samples took (tests in `tests/suite/sizes.rs`),
+/// rounded up: noisy radiance in f32 hardly compresses, truth channels do where surfaces are even. Mono frames take less.
+#[must_use]
+pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet) -> u64 {
+    let per_pixel = [
+        (outputs.image, 2.0),
+        (outputs.hdr, 12.0),
+        (outputs.direct, 12.0),
+        (outputs.airlight, 11.0),
+        (outputs.depth, 2.5),
+        (outputs.distance, 3.4),
+        (outputs.transmittance, 10.0),
+        (outputs.tau, 3.4),
+    ];
+    let wanted: f64 = per_pixel.iter().filter(|(wanted, _)| *wanted).map(|(_, bytes)| bytes).sum();
+    // Record, timings, marker and file headers.
+    let fixed = 8192;
+    (wanted * f64::from(width) * f64::from(height)) as u64 + fixed
+}

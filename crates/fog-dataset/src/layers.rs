@@ -1,0 +1,49 @@
+//! From a frame to the named channels of its EXR files.
+
+use fog_film::{Channels, Frame};
+
+use crate::OutputSet;
+
+/// Channels of `<id>.hdr.exr` that the outputs ask for.
+pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {
+    let mut out = Vec::new();
+    if outputs.hdr {
+        out.extend(colour(frame, "", |i| frame.image(i)));
+    }
+    if outputs.direct {
+        out.extend(colour(frame, "direct.", |i| frame.direct[i]));
+    }
+    if outputs.airlight {
+        out.extend(colour(frame, "airlight.", |i| frame.airlight[i]));
+    }
+    out
+}
+
+/// Channels of `<id>.gt.exr` that the outputs ask for.
+pub(crate) fn truth(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {
+    let truth = &frame.truth;
+    let mut out = Vec::new();
+    if outputs.depth {
+        out.push(("depth.Z".to_owned(), truth.depth_m.clone()));
+    }
+    if outputs.distance {
+        out.push(("distance.Z".to_owned(), truth.distance_m.clone()));
+    }
+    if outputs.transmittance {
+        out.extend(colour(frame, "transmittance.", |i| truth.transmittance[i]));
+    }
+    if outputs.tau {
+        out.push(("tau.Y".to_owned(), truth.tau.clone()));
+    }
+    out
+}
+
+/// Channels R, G, B of a quantity, or Y of a mono frame, behind a layer's prefix.
+fn colour(frame: &Frame, prefix: &str, at: impl Fn(usize) -> [f32; 3]) -> Vec<(String, Vec<f32>)> {
+    let names: &[&str] = match frame.channels {
+        Channels::Rgb => &["R", "G", "B"],
+        Channels::Mono { .. } => &["Y"],
+    };
+    let plane = |c: usize| (0..frame.pixel_count()).map(|i| at(i)[c]).collect();
+    names.iter().enumerate().map(|(c, name)| (format!("{prefix}{name}"), plane(c))).collect()
+}

@@ -1,0 +1,85 @@
+//! File names of a data set and of its frames.
+
+use crate::{Error, OutputSet, Result};
+
+pub(crate) const HEADER: &str = "dataset.json";
+pub(crate) const CONFIG: &str = "config.resolved.yaml";
+pub(crate) const PLAN: &str = "plan.jsonl";
+pub(crate) const INDEX: &str = "index.csv";
+
+/// The kinds of file that a frame can have, by what follows the id.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Image,
+    Hdr,
+    Truth,
+    Record,
+    Timing,
+    Done,
+    Failed,
+}
+
+impl Kind {
+    /// The kinds that hold the frame and are hashed, in the order in which they are written.
+    pub(crate) const HASHED: [Self; 4] = [Self::Image, Self::Hdr, Self::Truth, Self::Record];
+
+    /// File name of this kind for a frame.
+    pub(crate) fn file(self, id: &str) -> String {
+        let suffix = match self {
+            Self::Image => "rgb.png",
+            Self::Hdr => "hdr.exr",
+            Self::Truth => "gt.exr",
+            Self::Record => "json",
+            Self::Timing => "timing.json",
+            Self::Done => "done",
+            Self::Failed => "failed.json",
+        };
+        format!("{id}.{suffix}")
+    }
+
+    /// Whether the outputs ask for this hashed kind.
+    pub(crate) fn wanted(self, outputs: OutputSet) -> bool {
+        match self {
+            Self::Image => outputs.image,
+            Self::Hdr => outputs.wants_hdr_file(),
+            Self::Truth => outputs.wants_truth_file(),
+            _ => true,
+        }
+    }
+}
+
+/// Refuses ids that are no portable file name or whose files could be taken for those of something else.
+pub(crate) fn check_id(id: &str) -> Result<()> {
+    let bad = |reason| Err(Error::BadId { id: id.to_owned(), reason });
+    if id.is_empty() || id.len() > 200 {
+        return bad("it must have 1 to 200 characters");
+    }
+    if !id.bytes().all(|b| b.is_ascii_alphanumeric() || b"._-".contains(&b)) {
+        return bad("only letters, digits, `.`, `_` and `-` are allowed");
+    }
+    if !id.as_bytes()[0].is_ascii_alphanumeric() {
+        return bad("it must begin with a letter or digit");
+    }
+    if id == "dataset" || id.ends_with(".timing") || id.ends_with(".failed") {
+        return bad("`dataset` and names ending in `.timing` or `.failed` are taken");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_stay_inside_the_folder() {
+        for good in ["000001", "f-000001_h2.5", "a"] {
+            assert!(check_id(good).is_ok(), "{good}");
+        }
+        let long = "x".repeat(201);
+        for bad in
+            ["", "../a", "a/b", "a\\b", ".hidden", "dataset", "a.timing", "a.failed", "ä", "a b", &long]
+        {
+            assert!(check_id(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Whole data sets in temporary folders.
+
+mod common;
+mod concurrent;
+mod folder;
+mod resume;
+mod round_trip;
+mod sizes;

@@ -1,0 +1,124 @@
+//! What is written is what is read, bit by bit, and the same in every run.
+
+use std::collections::BTreeMap;
+
+use fog_dataset::{DataSet, OutputSet, StoredFrame, read_frame, read_header, read_plan};
+use fog_film::{Channels, Frame};
+
+use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed};
+
+const MONO: Channels = Channels::Mono { wavelength_nm: 550.0 };
+
+/// Compares one stored channel with the frame, bit by bit.
+fn same(stored: &StoredFrame, name: &str, want: impl Fn(usize) -> f32) {
+    let channel = stored.channels.get(name).unwrap_or_else(|| panic!("no channel {name}"));
+    for (i, got) in channel.values.iter().enumerate() {
+        assert_eq!(got.to_bits(), want(i).to_bits(), "{name} pixel {i}");
+    }
+}
+
+fn stored(set: &DataSet, f: &Frame) -> StoredFrame {
+    store(set, "f0", f).expect("written");
+    read_frame(set.dir(), "f0").expect("read")
+}
+
+#[test]
+fn every_channel_comes_back_bit_by_bit() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let f = frame(33, 17, Channels::Rgb, 4);
+    let s = stored(&open(dir.path(), 1), &f);
+    assert_eq!(s.channels.len(), 9 + 6);
+    for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+        same(&s, name, |i| f.image(i)[c]);
+        same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
+        same(&s, &format!("airlight.{name}"), |i| f.airlight[i][c]);
+        same(&s, &format!("transmittance.{name}"), |i| f.truth.transmittance[i][c]);
+        let (d, a) = (&s.channels[&format!("direct.{name}")], &s.channels[&format!("airlight.{name}")]);
+        same(&s, name, |i| d.values[i] + a.values[i]);
+    }
+    same(&s, "depth.Z", |i| f.truth.depth_m[i]);
+    same(&s, "distance.Z", |i| f.truth.distance_m[i]);
+    same(&s, "tau.Y", |i| f.truth.tau[i]);
+    let depth = &s.channels["depth.Z"];
+    assert_eq!((depth.width, depth.height), (33, 17));
+    assert_eq!(depth.values[0], f32::INFINITY, "sky, in row 0 at the top");
+    assert!(depth.values[32 + 16 * 33].is_finite());
+
+    let png = image::open(dir.path().join("f0.rgb.png")).expect("a PNG").into_rgb8();
+    assert_eq!(png.dimensions(), (33, 17));
+    assert_eq!(png.into_raw(), f.to_srgb8(1.25));
+    assert_eq!(s.record, read_json(&dir.path().join("f0.json")));
+}
+
+#[test]
+fn one_wavelength_has_one_channel() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let f = frame(8, 6, MONO, 4);
+    let s = stored(&open(dir.path(), 1), &f);
+    let names: Vec<&str> = s.channels.keys().map(String::as_str).collect();
+    assert_eq!(names, ["Y", "airlight.Y", "depth.Z", "direct.Y", "distance.Z", "tau.Y", "transmittance.Y"]);
+    same(&s, "Y", |i| f.image(i)[0]);
+    same(&s, "transmittance.Y", |i| f.truth.transmittance[i][0]);
+}
+
+#[test]
+fn only_the_wanted_outputs_are_written() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let sets = [["airlight", "tau"], ["image", "image"], ["depth", "depth"]];
+    let plan = sets.iter().enumerate();
+    let plan = plan.map(|(i, s)| planned(&format!("f{i}"), OutputSet::from_names(s).expect("known")));
+    let set = open_with(dir.path(), "a: 1\n", "c", plan.collect()).expect("a data set");
+    for i in 0..3 {
+        store(&set, &format!("f{i}"), &frame(8, 6, Channels::Rgb, 2)).expect("written");
+    }
+    let pictures: Vec<String> =
+        contents(dir.path()).into_keys().filter(|n| n.matches('.').count() == 2).collect();
+    assert_eq!(pictures, ["config.resolved.yaml", "f0.gt.exr", "f0.hdr.exr", "f1.rgb.png", "f2.gt.exr"]);
+    let s = read_frame(dir.path(), "f0").expect("read");
+    let names: Vec<&str> = s.channels.keys().map(String::as_str).collect();
+    assert_eq!(names, ["airlight.B", "airlight.G", "airlight.R", "tau.Y"]);
+    assert_eq!(set.finish().expect("an index").done, 3);
+}
+
+#[test]
+fn two_runs_give_the_same_bytes() {
+    let run = |seconds: f64| -> BTreeMap<String, Vec<u8>> {
+        let dir = tempfile::tempdir().expect("temporary folder");
+        let set = open(dir.path(), 2);
+        store_timed(&set, "f0", &frame(64, 36, Channels::Rgb, 4), seconds).expect("written");
+        store_timed(&set, "f1", &frame(16, 9, MONO, 4), seconds).expect("written");
+        set.finish().expect("an index");
+        contents(dir.path())
+    };
+    let first = run(1.0);
+    assert_eq!(first.len(), 4 + 2 * 5);
+    for i in 0..8 {
+        assert!(run(f64::from(i)) == first, "run {i} differs");
+    }
+}
+
+#[test]
+fn marker_timing_and_headers_say_what_they_should() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let set = open(dir.path(), 1);
+    store(&set, "f0", &frame(16, 9, Channels::Rgb, 4)).expect("written");
+    let timing = read_json(&dir.path().join("f0.timing.json"));
+    assert_eq!(timing["seconds"], 1.5);
+    assert_eq!(timing["samples_per_second"], 384.0);
+    let marker = read_json(&dir.path().join("f0.done"));
+    assert_eq!(marker["code_digest"], "code-1");
+    let names: Vec<&str> = marker["files"]
+        .as_array()
+        .expect("files")
+        .iter()
+        .map(|f| f["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(names, ["f0.rgb.png", "f0.hdr.exr", "f0.gt.exr", "f0.json"]);
+    let record = std::fs::read_to_string(dir.path().join("f0.json")).expect("a record");
+    assert_eq!(record, "{\n  \"id\": \"f0\",\n  \"samples\": 4\n}\n");
+
+    let header = read_header(dir.path()).expect("a header");
+    assert_eq!((header.name.as_str(), header.frames), ("test", 1));
+    assert_eq!(read_plan(dir.path()).expect("a plan"), set.plan());
+    assert!(read_frame(dir.path(), "../f0").is_err());
+}

@@ -1,0 +1,88 @@
+//! What the fog is at one altitude: the numbers that a data set records with a frame.
+
+use crate::advection::AdvectionModel;
+use crate::error::OpticsError;
+use crate::layer::{FogLayer, REFERENCE_NM, cross_sections};
+use crate::visibility::mor_m;
+use fog_core::optics_table::OpticsTable;
+
+/// Fog at one altitude, optical quantities at 550 nm. What is not defined is none: everything but σ_t = 0 in clear air,
+/// the droplets of a grey layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FogState {
+    /// Extinction coefficient in 1/m.
+    pub sigma_t_550_1_m: f64,
+    /// Single-scattering albedo.
+    pub albedo: Option<f64>,
+    /// Mean cosine of the scattering angle.
+    pub g: Option<f64>,
+    /// Meteorological optical range −ln 0.05 / σ_t in m; none where σ_t is 0 (it is infinite there).
+    pub mor_m: Option<f64>,
+    /// Liquid water content in g/m³.
+    pub liquid_water_content_g_m3: Option<f64>,
+    /// Number of droplets per m³ whose diameters lie in the model's range.
+    pub number_density_1_m3: Option<f64>,
+    /// Effective radius ½ ∫n d³ / ∫n d² in µm.
+    pub effective_radius_um: Option<f64>,
+    /// Number-mean diameter in µm.
+    pub mean_diameter_um: Option<f64>,
+}
+
+impl FogState {
+    /// The advection fog of [`crate::layer::advection`] at an altitude in m over its base.
+    ///
+    /// # Errors
+    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`].
+    pub fn advection(
+        table: &OpticsTable,
+        model: &AdvectionModel,
+        height_m: f64,
+        number_density_scale: f64,
+        altitude_m: f64,
+    ) -> Result<Self, OpticsError> {
+        model.check_height(height_m)?;
+        let zeta = altitude_m / height_m;
+        let n = number_density_scale * model.number_density_1_m3(zeta, height_m);
+        if n.is_nan() || n <= 0.0 {
+            return Ok(Self::default());
+        }
+        let view = table.view();
+
+        // Linear in wavelength between the table's columns, as the layer is.
+        let w = view.wavelengths_nm;
+        let upper = w.partition_point(|&nm| nm <= REFERENCE_NM).clamp(1, w.len().max(2) - 1).min(w.len() - 1);
+        let lower = upper.saturating_sub(1);
+        let t = if upper == lower { 0.0 } else { (REFERENCE_NM - w[lower]) / (w[upper] - w[lower]) };
+        let (a, b) = (cross_sections(&view, zeta, lower), cross_sections(&view, zeta, upper));
+        let mix = |a: f64, b: f64| a + (b - a) * t.clamp(0.0, 1.0);
+
+        let c_ext = mix(a.c_ext_m2, b.c_ext_m2);
+        let moments = model.moments(zeta);
+        Ok(Self {
+            sigma_t_550_1_m: n * c_ext,
+            albedo: Some((mix(a.c_sca_m2, b.c_sca_m2) / c_ext).clamp(0.0, 1.0)),
+            g: Some(mix(a.g, b.g)),
+            mor_m: Some(mor_m(n * c_ext)),
+            liquid_water_content_g_m3: Some(n * moments.mass_g),
+            number_density_1_m3: Some(n * moments.share_in_range),
+            effective_radius_um: Some(moments.effective_radius_um),
+            mean_diameter_um: Some(moments.mean_diameter_um),
+        })
+    }
+
+    /// A layer without droplets in mind, at an altitude in m over its datum; `g` of its phase function, where it has one.
+    #[must_use]
+    pub fn grey(layer: &FogLayer, g: Option<f64>, altitude_m: f64) -> Self {
+        let sigma_t = layer.sigma_t_at(altitude_m);
+        if sigma_t <= 0.0 {
+            return Self::default();
+        }
+        Self {
+            sigma_t_550_1_m: sigma_t,
+            albedo: layer.albedo_at(altitude_m),
+            g,
+            mor_m: Some(mor_m(sigma_t)),
+            ..Self::default()
+        }
+    }
+}

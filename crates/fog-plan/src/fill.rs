@@ -1,0 +1,89 @@
+//! Writes the schema's defaults into the tree, so that axes and `--set` find what they refer to, and so that the
+//! resolved configuration shows every value in use.
+
+use serde::Serialize;
+
+use crate::{
+    node::{Entry, Node, Value},
+    origin::Origin,
+    schema::{
+        CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, RenderFile, SensorFile,
+        SunFile, SweepFile,
+    },
+    validate::{DEFAULT_ALBEDO, DEFAULT_SCALE},
+};
+
+/// Fills in the defaults that do not depend on other keys.
+pub(crate) fn fill_sections(root: &mut Node) {
+    put(root, "seed", &DEFAULT_SEED);
+    put(root, "camera", &CameraFile::default());
+    put(root, "sensor", &SensorFile::default());
+    put(root, "lighting", &LightingFile::default());
+    put(root, "render", &RenderFile::default());
+    put(root, "outputs", &Outputs::default());
+    for (section, fill) in
+        [("fog", fill_fog as fn(&mut Node)), ("lighting", fill_lighting), ("sweep", fill_sweep)]
+    {
+        if let Some(node) = root.child_mut(section) {
+            fill(node);
+        }
+    }
+}
+
+/// Fills in the fog keys that its model has. Not when an axis changes the model: they may not belong to the next.
+pub(crate) fn fill_model(root: &mut Node) {
+    let Some(fog) = root.child_mut("fog") else { return };
+    let Some(Value::Text(model)) = fog.child("model").map(|node| node.value.clone()) else { return };
+    match model.as_str() {
+        "advection" => put(fog, "number_density_scale", &DEFAULT_SCALE),
+        "homogeneous" | "linear_gradient" | "layered" => {
+            put(fog, "single_scattering_albedo", &DEFAULT_ALBEDO)
+        }
+        _ => {}
+    }
+}
+
+fn fill_fog(fog: &mut Node) {
+    merge(fog, &FogFile::default());
+}
+
+fn fill_lighting(lighting: &mut Node) {
+    merge(lighting, &LightingMap::default());
+    if let Some(sun) = lighting.child_mut("sun") {
+        merge(sun, &SunFile::default());
+    }
+}
+
+fn fill_sweep(sweep: &mut Node) {
+    merge(sweep, &SweepFile::default());
+}
+
+/// Puts a default at `key` of a map: all of it, or what is absent.
+fn put(map: &mut Node, key: &str, default: &impl Serialize) {
+    match map.child_mut(key) {
+        Some(node) => merge(node, default),
+        None => add(map, key, &json(default)),
+    }
+}
+
+/// Adds the keys that a map does not have. Leaves any other kind of node, and keys without default.
+fn merge(node: &mut Node, default: &impl Serialize) {
+    if let serde_json::Value::Object(defaults) = json(default) {
+        for (key, value) in &defaults {
+            if node.child(key).is_none() && !value.is_null() {
+                add(node, key, value);
+            }
+        }
+    }
+}
+
+fn add(map: &mut Node, key: &str, value: &serde_json::Value) {
+    if let Value::Map(entries) = &mut map.value {
+        let node = Node::from_json(value, &Origin::Default);
+        entries.push(Entry { key: key.to_owned(), key_origin: Origin::Default, node });
+    }
+}
+
+fn json(default: &impl Serialize) -> serde_json::Value {
+    serde_json::to_value(default).unwrap_or_default()
+}

@@ -1,0 +1,242 @@
+//! What one frame is: every value resolved, checked and in SI units.
+
+use std::path::PathBuf;
+
+use serde::{Serialize, Serializer, ser::SerializeMap};
+
+/// A frame of the plan. Serialises to JSON whose keys carry the units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrameSpec {
+    /// Readable slug of the axis values and the first 16 hex digits of `digest`: `[a-z0-9._-]`, unique in a plan, fit for
+    /// a file name.
+    pub id: String,
+    /// Position in the plan, from 0.
+    pub index: usize,
+    /// 16 hex digits that frames share which differ in `fog` alone.
+    pub pair_id: String,
+    /// Seed of all random numbers of the frame: a function of the configuration's seed and the frame's content.
+    pub seed: u64,
+    /// Hex of blake3 over the canonical JSON of the content: `scene` to `outputs` below.
+    pub digest: String,
+    /// The axes' values as written, by dotted path.
+    #[serde(serialize_with = "as_map")]
+    pub axes: Vec<(String, serde_json::Value)>,
+    /// The scene; none is empty space.
+    pub scene: Option<SceneSpec>,
+    /// The fog.
+    pub fog: FogSpec,
+    /// Pose of the camera.
+    pub camera: CameraSpec,
+    /// Image plane.
+    pub sensor: SensorSpec,
+    /// Light sources.
+    pub lighting: LightingSpec,
+    /// Sampling.
+    pub render: RenderSpec,
+    /// What is written, in the order of [`Output`], each once.
+    pub outputs: Vec<Output>,
+}
+
+fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(axes.len()))?;
+    for (path, value) in axes {
+        map.serialize_entry(path, value)?;
+    }
+    map.end()
+}
+
+/// A scene file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SceneSpec {
+    /// Path as written in the configuration (`.glb` or `.gltf`), relative to the current folder.
+    pub file: PathBuf,
+}
+
+/// The fog of a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FogSpec {
+    /// Which fog, with its parameters.
+    #[serde(flatten)]
+    pub model: FogModel,
+    /// Where scattered light goes.
+    pub phase: Phase,
+    /// Scales extinction so that the layer has this visibility.
+    pub visibility: Option<Visibility>,
+    /// World height (y) of altitude 0, in metres; −500 to 9000.
+    pub datum_m: f64,
+}
+
+/// A fog model and its parameters.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "model", rename_all = "snake_case")]
+pub enum FogModel {
+    /// No fog: `phase` is `Mie`, `visibility` absent and `datum_m` 0.
+    None,
+    /// Droplet sizes by altitude (Kolářová, Lachiver & Wilkie 2024).
+    Advection {
+        /// Thickness of the layer in metres, 1 to 5000.
+        height_m: f64,
+        /// Factor on the number density, above 0 up to 100.
+        number_density_scale: f64,
+    },
+    /// The same extinction in the whole layer, at every wavelength.
+    Homogeneous {
+        /// Thickness of the layer in metres, 1 to 5000.
+        height_m: f64,
+        /// Extinction coefficient in 1/m, 0 to 10; absent: mean over altitude of the advection layer's at 550 nm.
+        sigma_t_1_m: Option<f64>,
+        /// Scattering over extinction, 0 to 1.
+        single_scattering_albedo: f64,
+    },
+    /// Extinction linear in altitude, at every wavelength.
+    LinearGradient {
+        /// Thickness of the layer in metres, 1 to 5000.
+        height_m: f64,
+        /// Extinction coefficient at the bottom in 1/m, 0 to 10; absent: the least of the advection layer's at 550 nm.
+        sigma_t_base_1_m: Option<f64>,
+        /// Extinction coefficient at the top in 1/m, 0 to 10; absent: the greatest of the advection layer's at 550 nm.
+        sigma_t_top_1_m: Option<f64>,
+        /// Scattering over extinction, 0 to 1.
+        single_scattering_albedo: f64,
+    },
+    /// Extinction from a CSV file with columns `altitude_m,sigma_t_1_m`.
+    Layered {
+        /// Path as written in the configuration.
+        file: PathBuf,
+        /// Scattering over extinction, 0 to 1.
+        single_scattering_albedo: f64,
+    },
+}
+
+impl FogModel {
+    /// The model's name in configurations: `none`, `advection`, ….
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Advection { .. } => "advection",
+            Self::Homogeneous { .. } => "homogeneous",
+            Self::LinearGradient { .. } => "linear_gradient",
+            Self::Layered { .. } => "layered",
+        }
+    }
+}
+
+/// Phase function of the fog.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Phase {
+    /// Mie scattering of the advection model's droplets by altitude relative to the layer, and by wavelength.
+    Mie,
+    /// Henyey–Greenstein with this mean cosine, −0.999 to 0.999.
+    Hg(f64),
+    /// Mie scattering of the mean droplet (the paper's table).
+    MieMeanDiameter,
+}
+
+/// A visibility to be met.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Visibility {
+    /// Meteorological optical range in metres, −ln 0.05 / σ at 550 nm; 1 to 100 000.
+    pub mor_m: f64,
+    /// Altitude above the datum in metres where it holds.
+    pub altitude_m: f64,
+}
+
+/// Pose of the camera.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CameraSpec {
+    /// Height above the fog's datum in metres.
+    pub altitude_m: f64,
+    /// World position in metres; y is datum + altitude.
+    pub position_m: [f64; 3],
+    /// Clockwise seen from above, in degrees: 0 looks along −Z, 90 along +X.
+    pub heading_deg: f64,
+    /// Upwards, in degrees.
+    pub pitch_deg: f64,
+    /// To the right, in degrees.
+    pub roll_deg: f64,
+}
+
+/// Image plane of a pinhole camera with square pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SensorSpec {
+    /// Width in pixels, 1 to 16 384.
+    pub width_px: u32,
+    /// Height in pixels, 1 to 16 384.
+    pub height_px: u32,
+    /// Horizontal field of view in degrees, 0.1 to 170.
+    pub horizontal_fov_deg: f64,
+    /// Factor on linear values before sRGB encoding, above 0.
+    pub exposure: f64,
+}
+
+/// Light sources of a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LightingSpec {
+    /// Name of the preset that the values come from, if any.
+    pub preset: Option<&'static str>,
+    /// Uniform light from every direction.
+    pub environment: Option<EnvironmentSpec>,
+    /// The sun.
+    pub sun: Option<SunSpec>,
+    /// Whether the scene's emitting surfaces shine.
+    pub scene_emitters: bool,
+}
+
+/// Uniform light from every direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnvironmentSpec {
+    /// Radiance with the spectrum of D65, R = G = B = this; with `wavelength_nm` the spectral radiance there.
+    pub radiance: f64,
+    /// Wavelength in nanometres that `radiance` is meant at; then equal to the frame's `render.wavelength_nm`.
+    pub wavelength_nm: Option<f64>,
+}
+
+/// A disc of even radiance in the sky.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SunSpec {
+    /// Above the horizon, in degrees, −90 to 90.
+    pub elevation_deg: f64,
+    /// Direction towards the sun as a heading, in degrees.
+    pub azimuth_deg: f64,
+    /// Irradiance on a plane normal to the beam; spectrum as [`EnvironmentSpec::radiance`].
+    pub irradiance: f64,
+    /// Angular diameter in degrees, 0 (parallel beam) to 10.
+    pub angular_diameter_deg: f64,
+    /// Wavelength in nanometres that `irradiance` is meant at; then equal to the frame's `render.wavelength_nm`.
+    pub wavelength_nm: Option<f64>,
+}
+
+/// Sampling of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RenderSpec {
+    /// Paths per pixel, 1 to 1 000 000.
+    pub samples: u32,
+    /// Most scattering events of a path; absent: no limit.
+    pub max_depth: Option<u32>,
+    /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
+    pub wavelength_nm: Option<f64>,
+}
+
+/// A quantity written for each frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Output {
+    /// sRGB picture.
+    Image,
+    /// Linear radiance.
+    Hdr,
+    /// Planar depth in metres.
+    Depth,
+    /// Range to the first surface in metres.
+    Distance,
+    /// Transmittance to the first surface.
+    Transmittance,
+    /// Optical depth to the first surface at 550 nm.
+    Tau,
+    /// Light that came straight through.
+    Direct,
+    /// Light that the fog scattered.
+    Airlight,
+}

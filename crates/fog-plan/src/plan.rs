@@ -1,0 +1,217 @@
+//! The plan: frames by index, made when asked for.
+
+use crate::{
+    axis::Axis,
+    diff::flatten,
+    error::{PlanError, Problem},
+    frame::FrameSpec,
+    identity::{Identity, hash},
+    node::{Node, Value},
+    set::set,
+    sweep::Sweep,
+    validate,
+};
+
+/// Values that an axis summary lists at most.
+const SUMMARY_VALUES: usize = 16;
+
+/// A checked configuration, multiplied out into frames.
+///
+/// Frames are computed from their index, so a plan of a million frames is small, and every worker can hold it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    name: String,
+    seed: u64,
+    /// The whole configuration with defaults.
+    pub(crate) resolved: Node,
+    /// The same without `sweep`: what axes override.
+    base: Node,
+    pub(crate) sweep: Option<Sweep>,
+}
+
+/// An axis, for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AxisSummary {
+    /// Dotted path, or several with commas, as written.
+    pub path: String,
+    /// Number of values; none for an interval that random and sobol draw from.
+    pub len: Option<usize>,
+    /// The first values (16 at most) in short form, or `2 to 30` for an interval.
+    pub values: Vec<String>,
+}
+
+impl Plan {
+    /// `resolved` must have been filled; `sweep` read from it.
+    pub(crate) fn new(name: String, seed: u64, resolved: Node, sweep: Option<Sweep>) -> Self {
+        let mut base = resolved.clone();
+        crate::set::remove(&mut base, &["sweep".to_owned()]);
+        Self { name, seed, resolved, base, sweep }
+    }
+
+    /// Name of the configuration: `[A-Za-z0-9._-]+`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Seed of the configuration.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Number of frames, at least 1.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.sweep.as_ref().map_or(1, |sweep| sweep.len)
+    }
+
+    /// Whether there are no frames: never, a plan has at least one.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The axes in the order written; none without a sweep.
+    #[must_use]
+    pub fn axes(&self) -> Vec<AxisSummary> {
+        let summary = |axis: &Axis| AxisSummary {
+            path: axis.name.clone(),
+            len: axis.values.len(),
+            values: axis.values.short(SUMMARY_VALUES),
+        };
+        self.sweep.iter().flat_map(|sweep| &sweep.axes).map(summary).collect()
+    }
+
+    /// How the axes combine: `grid`, `zip`, `random` or `sobol`; none without a sweep.
+    #[must_use]
+    pub fn mode(&self) -> Option<&'static str> {
+        use crate::schema::SweepMode::{Grid, Random, Sobol, Zip};
+        self.sweep.as_ref().map(|sweep| match sweep.mode {
+            Grid => "grid",
+            Zip => "zip",
+            Random => "random",
+            Sobol => "sobol",
+        })
+    }
+
+    /// Frame `index`, counted from 0.
+    ///
+    /// # Errors
+    /// The problems of the frame, which `load` has not seen if the plan is too long to check every frame; or an index
+    /// that is not below [`Plan::len`].
+    pub fn frame(&self, index: usize) -> Result<FrameSpec, PlanError> {
+        if index >= self.len() {
+            let message = format!("there is no frame {index}; the plan has {}", self.len());
+            return Err(PlanError::Invalid(vec![Problem::new(&self.base.origin, "", message)]));
+        }
+        let axes = self.sweep.as_ref().map_or(&[][..], |sweep| &sweep.axes);
+        let values = self.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.values(index, self.seed));
+        // The document with the axes' values in their places.
+        let mut tree = self.base.clone();
+        let mut written = Vec::new();
+        for (axis, value) in axes.iter().zip(&values) {
+            for (path, part) in axis.parts(value) {
+                if let Err(message) = set(&mut tree, path, &axis.key_origin, part.clone()) {
+                    let problem = Problem::new(&part.origin, path, message);
+                    return Err(PlanError::Invalid(vec![self.name_axis(problem)]));
+                }
+                written.push((path.to_owned(), part.to_json()));
+            }
+        }
+        let content = validate::content(&tree).map_err(|problems| {
+            PlanError::Invalid(problems.into_iter().map(|problem| self.name_axis(problem)).collect())
+        })?;
+        let identity = Identity::of(&content);
+        let words: Vec<String> = match values.is_empty() {
+            true => vec![self.name.clone()],
+            false => values.iter().map(Node::short).collect(),
+        };
+        let validate::Content { scene, fog, camera, sensor, lighting, render, outputs } = content;
+        Ok(FrameSpec {
+            id: identity.id(&words),
+            index,
+            pair_id: identity.pair_id(),
+            seed: identity.seed(self.seed),
+            digest: identity.digest.to_hex().to_string(),
+            axes: written,
+            scene,
+            fog,
+            camera,
+            sensor,
+            lighting,
+            render,
+            outputs,
+        })
+    }
+
+    /// All frames in order.
+    pub fn frames(&self) -> impl ExactSizeIterator<Item = Result<FrameSpec, PlanError>> + '_ {
+        (0..self.len()).map(|index| self.frame(index))
+    }
+
+    /// The resolved configuration: every key with its value in use. Values of axes are as written.
+    #[must_use]
+    pub fn resolved_json(&self) -> serde_json::Value {
+        self.resolved.to_json()
+    }
+
+    /// The resolved configuration as YAML text, which parses back to the same plan.
+    #[must_use]
+    pub fn resolved_yaml(&self) -> String {
+        // A tree of maps, lists and finite scalars always has a YAML form.
+        serde_yaml::to_string(&self.resolved_json()).unwrap_or_default()
+    }
+
+    /// Hex of blake3 over the resolved configuration with its sweep. Comments, order of keys (but not of axes) and forms
+    /// of numbers do not matter.
+    #[must_use]
+    pub fn config_digest(&self) -> String {
+        let mut json = self.resolved_json();
+        // The order of axes is the order of frames: keep it through the sorting of keys.
+        if let Some(axes) = json.pointer_mut("/sweep/axes") {
+            let pairs =
+                axes.as_object().map(|map| map.iter().map(|(k, v)| serde_json::json!([k, v])).collect());
+            *axes = pairs.unwrap_or_default();
+        }
+        hash(&json).to_hex().to_string()
+    }
+
+    /// What differs between the configuration of an earlier run (its [`Plan::resolved_yaml`]) and this one: entries like
+    /// `fog.height_m: was 100, is now 260`. Empty when both mean the same.
+    ///
+    /// # Errors
+    /// `old_yaml` is not a YAML document.
+    pub fn differing_keys(&self, old_yaml: &str) -> Result<Vec<String>, PlanError> {
+        let old = crate::yaml::parse(old_yaml, &"config.resolved.yaml".into())
+            .map_err(|problem| PlanError::Invalid(vec![problem]))?;
+        Ok(crate::diff::differing(&flatten(&old), &flatten(&self.resolved)))
+    }
+
+    /// Adds to a problem the axis that it comes from, if any.
+    fn name_axis(&self, mut problem: Problem) -> Problem {
+        let under = |part: &str, whole: &str| {
+            part == whole || part.strip_prefix(whole).is_some_and(|r| r.starts_with('.'))
+        };
+        let axes = self.sweep.iter().flat_map(|sweep| &sweep.axes);
+        // The last one wins, as it does in the tree.
+        let axis = axes.rev().find(|axis| axis.paths.iter().any(|path| under(&problem.path, path)));
+        if let Some(axis) = axis {
+            problem.message.push_str(&format!(" (from axis `{}`)", axis.name));
+        }
+        problem
+    }
+}
+
+impl Node {
+    /// Top-level keys in the order of the schema.
+    pub(crate) fn sort_sections(&mut self) {
+        const ORDER: [&str; 11] = [
+            "version", "name", "seed", "scene", "fog", "camera", "sensor", "lighting", "render", "outputs",
+            "sweep",
+        ];
+        if let Value::Map(entries) = &mut self.value {
+            entries.sort_by_key(|entry| ORDER.iter().position(|key| *key == entry.key));
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Valid ranges of the numbers, said once: the checks, their messages and the JSON Schema read them here.
+
+use crate::words::{short_number, unit_of};
+
+/// An interval, closed above, and below unless `open`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range {
+    pub(crate) min: f64,
+    pub(crate) max: f64,
+    open: bool,
+}
+
+impl Range {
+    const fn closed(min: f64, max: f64) -> Self {
+        Self { min, max, open: false }
+    }
+
+    const fn above(min: f64, max: f64) -> Self {
+        Self { min, max, open: true }
+    }
+
+    /// Whether `x` lies inside; never true for NaN.
+    pub(crate) fn contains(self, x: f64) -> bool {
+        x <= self.max && if self.open { x > self.min } else { x >= self.min }
+    }
+
+    /// The message about a value outside: `-5 m is out of range; valid: 1 to 5000 m`.
+    pub(crate) fn message(self, key: &str, x: f64) -> String {
+        let unit = unit_of(key).map(|(symbol, _)| format!(" {symbol}")).unwrap_or_default();
+        let (min, max) = (short_number(self.min), short_number(self.max));
+        let valid = if self.open { format!("above {min} up to {max}") } else { format!("{min} to {max}") };
+        format!("{}{unit} is out of range; valid: {valid}{unit}", short_number(x))
+    }
+}
+
+pub(crate) const LAYER_HEIGHT_M: Range = Range::closed(1.0, 5000.0);
+pub(crate) const DENSITY_SCALE: Range = Range::above(0.0, 100.0);
+pub(crate) const SIGMA_T_1_M: Range = Range::closed(0.0, 10.0);
+pub(crate) const ALBEDO: Range = Range::closed(0.0, 1.0);
+pub(crate) const HG_G: Range = Range::closed(-0.999, 0.999);
+pub(crate) const MOR_M: Range = Range::closed(1.0, 100_000.0);
+pub(crate) const VISIBILITY_ALTITUDE_M: Range = Range::closed(0.0, 5000.0);
+pub(crate) const DATUM_M: Range = Range::closed(-500.0, 9000.0);
+pub(crate) const CAMERA_ALTITUDE_M: Range = Range::closed(-500.0, 20_000.0);
+pub(crate) const POSITION_M: Range = Range::closed(-1e7, 1e7);
+pub(crate) const HEADING_DEG: Range = Range::closed(-360.0, 360.0);
+pub(crate) const PITCH_DEG: Range = Range::closed(-90.0, 90.0);
+pub(crate) const ROLL_DEG: Range = Range::closed(-180.0, 180.0);
+pub(crate) const IMAGE_PX: Range = Range::closed(1.0, 16_384.0);
+pub(crate) const FOV_DEG: Range = Range::closed(0.1, 170.0);
+pub(crate) const EXPOSURE: Range = Range::above(0.0, 1e9);
+pub(crate) const RADIANCE: Range = Range::closed(0.0, 1e12);
+pub(crate) const ELEVATION_DEG: Range = Range::closed(-90.0, 90.0);
+pub(crate) const SUN_DIAMETER_DEG: Range = Range::closed(0.0, 10.0);
+pub(crate) const WAVELENGTH_NM: Range = Range::closed(380.0, 780.0);
+pub(crate) const SAMPLES: Range = Range::closed(1.0, 1_000_000.0);
+pub(crate) const MAX_DEPTH: Range = Range::closed(1.0, 1_000_000.0);
+pub(crate) const COUNT: Range = Range::closed(1.0, 100_000_000.0);

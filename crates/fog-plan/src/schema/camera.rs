@@ -1,0 +1,119 @@
+//! Sections `camera`, `sensor`, `render` and `outputs`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::ranges;
+
+/// Pose of the camera.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Camera")]
+pub(crate) struct CameraFile {
+    /// Height above the fog's datum, in metres.
+    #[schemars(range(min = ranges::CAMERA_ALTITUDE_M.min, max = ranges::CAMERA_ALTITUDE_M.max))]
+    pub(crate) altitude_m: f64,
+    /// World position x, y, z in metres; y is replaced by datum + altitude_m.
+    #[schemars(inner(range(min = ranges::POSITION_M.min, max = ranges::POSITION_M.max)))]
+    pub(crate) position_m: [f64; 3],
+    /// Clockwise seen from above, in degrees: 0 looks along −Z (north), 90 along +X (east).
+    #[schemars(range(min = ranges::HEADING_DEG.min, max = ranges::HEADING_DEG.max))]
+    pub(crate) heading_deg: f64,
+    /// Upwards, in degrees.
+    #[schemars(range(min = ranges::PITCH_DEG.min, max = ranges::PITCH_DEG.max))]
+    pub(crate) pitch_deg: f64,
+    /// To the right, in degrees.
+    #[schemars(range(min = ranges::ROLL_DEG.min, max = ranges::ROLL_DEG.max))]
+    pub(crate) roll_deg: f64,
+}
+
+impl Default for CameraFile {
+    fn default() -> Self {
+        Self { altitude_m: 2.0, position_m: [0.0; 3], heading_deg: 0.0, pitch_deg: 0.0, roll_deg: 0.0 }
+    }
+}
+
+/// Image plane of a pinhole camera with square pixels.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Sensor")]
+pub(crate) struct SensorFile {
+    /// Width in pixels.
+    #[schemars(range(min = ranges::IMAGE_PX.min, max = ranges::IMAGE_PX.max))]
+    pub(crate) width_px: i64,
+    /// Height in pixels.
+    #[schemars(range(min = ranges::IMAGE_PX.min, max = ranges::IMAGE_PX.max))]
+    pub(crate) height_px: i64,
+    /// Horizontal field of view in degrees.
+    #[schemars(range(min = ranges::FOV_DEG.min, max = ranges::FOV_DEG.max))]
+    pub(crate) horizontal_fov_deg: f64,
+    /// Factor on linear values before sRGB encoding.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::EXPOSURE.max))]
+    pub(crate) exposure: f64,
+}
+
+impl Default for SensorFile {
+    fn default() -> Self {
+        Self { width_px: 320, height_px: 180, horizontal_fov_deg: 60.0, exposure: 1.0 }
+    }
+}
+
+/// Sampling.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Render")]
+pub(crate) struct RenderFile {
+    /// Paths per pixel.
+    #[schemars(range(min = ranges::SAMPLES.min, max = ranges::SAMPLES.max))]
+    pub(crate) samples: i64,
+    /// Most scattering events of a path. Absent: no limit.
+    #[schemars(range(min = ranges::MAX_DEPTH.min, max = ranges::MAX_DEPTH.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_depth: Option<i64>,
+    /// Renders this wavelength alone, in nanometres. Absent: the visible spectrum.
+    #[schemars(range(min = ranges::WAVELENGTH_NM.min, max = ranges::WAVELENGTH_NM.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) wavelength_nm: Option<f64>,
+}
+
+impl Default for RenderFile {
+    fn default() -> Self {
+        Self { samples: 64, max_depth: None, wavelength_nm: None }
+    }
+}
+
+/// A quantity written for each frame.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Output")]
+pub(crate) enum OutputFile {
+    /// sRGB picture.
+    Image,
+    /// Linear radiance.
+    Hdr,
+    /// Planar depth in metres.
+    Depth,
+    /// Range to the first surface in metres.
+    Distance,
+    /// Transmittance to the first surface.
+    Transmittance,
+    /// Optical depth to the first surface at 550 nm.
+    Tau,
+    /// Light that came straight through.
+    Direct,
+    /// Light that the fog scattered.
+    Airlight,
+}
+
+impl OutputFile {
+    pub(crate) const ALL: [Self; 8] = [
+        Self::Image,
+        Self::Hdr,
+        Self::Depth,
+        Self::Distance,
+        Self::Transmittance,
+        Self::Tau,
+        Self::Direct,
+        Self::Airlight,
+    ];
+}

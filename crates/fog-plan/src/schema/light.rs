@@ -1,0 +1,142 @@
+//! Section `lighting`.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{
+    Deserialize, Deserializer, Serialize,
+    de::{Error, IntoDeserializer, MapAccess, Visitor, value::MapAccessDeserializer},
+};
+
+use crate::ranges;
+
+/// A preset or a map.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[schemars(rename = "Lighting")]
+pub(crate) enum LightingFile {
+    /// A preset by name.
+    Preset(Preset),
+    /// Light sources one by one.
+    Map(LightingMap),
+}
+
+impl Default for LightingFile {
+    fn default() -> Self {
+        Self::Preset(Preset::Day)
+    }
+}
+
+/// Ready-made lighting.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Preset {
+    /// Overcast: the same radiance 1 from every direction; emitting surfaces off.
+    Day,
+    /// Only the scene's emitting surfaces.
+    Night,
+    /// Weak sky and a sun 35° high in the south-east; emitting surfaces off.
+    Sunny,
+}
+
+/// Light sources.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct LightingMap {
+    /// Light from every direction. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) environment: Option<EnvironmentFile>,
+    /// The sun. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sun: Option<SunFile>,
+    /// Whether the scene's emitting surfaces shine.
+    pub(crate) scene_emitters: bool,
+}
+
+impl Default for LightingMap {
+    fn default() -> Self {
+        Self { environment: None, sun: None, scene_emitters: true }
+    }
+}
+
+/// Uniform light from every direction.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Environment")]
+pub(crate) struct EnvironmentFile {
+    /// Radiance with the spectrum of D65, recorded as R = G = B = this value; with wavelength_nm the spectral radiance
+    /// there.
+    #[schemars(range(min = ranges::RADIANCE.min, max = ranges::RADIANCE.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) radiance: Option<f64>,
+    /// The wavelength that `radiance` is meant at, in nanometres: equal to render.wavelength_nm.
+    #[schemars(range(min = ranges::WAVELENGTH_NM.min, max = ranges::WAVELENGTH_NM.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) wavelength_nm: Option<f64>,
+}
+
+/// A disc in the sky.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Sun")]
+pub(crate) struct SunFile {
+    /// Above the horizon, in degrees.
+    #[schemars(range(min = ranges::ELEVATION_DEG.min, max = ranges::ELEVATION_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) elevation_deg: Option<f64>,
+    /// Direction towards the sun as a heading, in degrees: 0 is north (−Z), 90 is east (+X).
+    #[schemars(range(min = ranges::HEADING_DEG.min, max = ranges::HEADING_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) azimuth_deg: Option<f64>,
+    /// Irradiance on a plane normal to the beam, with the spectrum of D65, recorded as R = G = B = this value; with
+    /// wavelength_nm the spectral irradiance there.
+    #[schemars(range(min = ranges::RADIANCE.min, max = ranges::RADIANCE.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) irradiance: Option<f64>,
+    /// Angular diameter in degrees; 0 is a parallel beam.
+    #[schemars(range(min = ranges::SUN_DIAMETER_DEG.min, max = ranges::SUN_DIAMETER_DEG.max))]
+    pub(crate) angular_diameter_deg: f64,
+    /// The wavelength that `irradiance` is meant at, in nanometres: equal to render.wavelength_nm.
+    #[schemars(range(min = ranges::WAVELENGTH_NM.min, max = ranges::WAVELENGTH_NM.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) wavelength_nm: Option<f64>,
+}
+
+/// Mean angular diameter of the sun in degrees.
+pub(crate) const SUN_DIAMETER_DEG: f64 = 0.533;
+
+impl Default for SunFile {
+    fn default() -> Self {
+        Self {
+            elevation_deg: None,
+            azimuth_deg: None,
+            irradiance: None,
+            angular_diameter_deg: SUN_DIAMETER_DEG,
+            wavelength_nm: None,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for LightingFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(LightingVisitor)
+    }
+}
+
+struct LightingVisitor;
+
+impl<'de> Visitor<'de> for LightingVisitor {
+    type Value = LightingFile;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<LightingFile, E> {
+        Preset::deserialize(text.into_deserializer()).map(LightingFile::Preset)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<LightingFile, A::Error> {
+        LightingMap::deserialize(MapAccessDeserializer::new(map)).map(LightingFile::Map)
+    }
+}

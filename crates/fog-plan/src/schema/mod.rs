@@ -1,0 +1,96 @@
+//! The configuration file as it is written: names, units, defaults. Meaning is checked in `validate`.
+//!
+//! Keys that an axis may supply are optional here even where a frame needs them.
+
+mod camera;
+mod fog;
+mod light;
+mod or_none;
+mod sweep;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
+pub(crate) use fog::{FogFile, FogModelName, PhaseFile, VisibilityFile};
+pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
+pub(crate) use or_none::OrNone;
+pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
+
+use or_none::Example;
+
+/// A Fogbank configuration: one document that describes a frame, and optionally axes that override parts of it, frame
+/// by frame.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Fogbank configuration", extend("required" = ["version", "name"]))]
+pub(crate) struct ConfigFile {
+    /// Version of this format: 1.
+    #[schemars(required, range(min = 1, max = 1))]
+    pub(crate) version: Option<i64>,
+    /// Name of the data set: letters, digits, `.`, `_` and `-`.
+    #[schemars(required, length(min = 1, max = 100), regex(pattern = "^[A-Za-z0-9._-]+$"))]
+    pub(crate) name: Option<String>,
+    /// Seed of all random numbers of the data set.
+    #[schemars(default = "default_seed")]
+    pub(crate) seed: Option<u64>,
+    /// The scene, or `none` for empty space.
+    pub(crate) scene: Option<OrNone<SceneFile>>,
+    /// The fog, or `none`.
+    pub(crate) fog: Option<OrNone<FogFile>>,
+    /// Where the camera stands and looks.
+    pub(crate) camera: CameraFile,
+    /// The image plane.
+    pub(crate) sensor: SensorFile,
+    /// A preset (`day`, `night`, `sunny`) or a map of light sources.
+    pub(crate) lighting: LightingFile,
+    /// How the picture is computed.
+    pub(crate) render: RenderFile,
+    /// What is written for each frame.
+    #[schemars(extend("uniqueItems" = true), length(min = 1))]
+    pub(crate) outputs: Outputs,
+    /// Axes whose values are multiplied out into frames.
+    pub(crate) sweep: Option<SweepFile>,
+}
+
+/// Seed of a configuration that names none.
+pub(crate) const DEFAULT_SEED: u64 = 1;
+
+fn default_seed() -> u64 {
+    DEFAULT_SEED
+}
+
+/// Names of the outputs; all of them unless said otherwise.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(transparent)]
+pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);
+
+impl Default for Outputs {
+    fn default() -> Self {
+        Self(OutputFile::ALL.to_vec())
+    }
+}
+
+/// A scene file.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Scene")]
+pub(crate) struct SceneFile {
+    /// Path of a glTF scene (`.glb` or `.gltf`), relative to the current folder.
+    pub(crate) file: Option<String>,
+}
+
+impl Example for SceneFile {
+    const EXAMPLE: &'static str = "{file: scenes/street.glb}";
+}
+
+/// The JSON Schema (draft 2020-12) of a configuration file, for editors.
+///
+/// ```
+/// let schema = fog_plan::schema_json();
+/// assert_eq!(schema["additionalProperties"], false);
+/// ```
+#[must_use]
+pub fn schema_json() -> serde_json::Value {
+    schemars::schema_for!(ConfigFile).to_value()
+}

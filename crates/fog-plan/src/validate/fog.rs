@@ -1,0 +1,131 @@
+//! Checks of `fog`.
+
+use super::Check;
+use crate::{
+    frame::{FogModel, FogSpec, Phase, Visibility},
+    ranges,
+    schema::{FogFile, FogModelName, OrNone, PhaseFile, VisibilityFile},
+};
+
+use FogModelName::{Advection, Homogeneous, Layered, LinearGradient};
+
+/// Number density and albedo of fogs that do not say.
+pub(crate) const DEFAULT_SCALE: f64 = 1.0;
+/// Water hardly absorbs visible light.
+pub(crate) const DEFAULT_ALBEDO: f64 = 1.0;
+
+/// Models that have a layer of given thickness.
+const WITH_HEIGHT: [FogModelName; 3] = [Advection, Homogeneous, LinearGradient];
+/// Models whose albedo is given rather than computed.
+const WITH_ALBEDO: [FogModelName; 3] = [Homogeneous, LinearGradient, Layered];
+
+impl Check<'_> {
+    pub(super) fn fog(&mut self, fog: Option<&OrNone<FogFile>>) -> Option<FogSpec> {
+        let fog = match self.required(
+            "fog",
+            fog,
+            "give `none` or a map such as {model: advection, height_m: 180}",
+        )? {
+            OrNone::None(_) => {
+                return Some(FogSpec {
+                    model: FogModel::None,
+                    phase: Phase::Mie,
+                    visibility: None,
+                    datum_m: 0.0,
+                });
+            }
+            OrNone::Some(fog) => fog,
+        };
+        let phase = match fog.phase {
+            PhaseFile::Mie => Some(Phase::Mie),
+            PhaseFile::Hg(g) => self.range("fog.phase.hg", g, ranges::HG_G).map(Phase::Hg),
+            PhaseFile::MieMeanDiameter => Some(Phase::MieMeanDiameter),
+        };
+        let datum_m = self.range("fog.datum_m", fog.datum_m, ranges::DATUM_M);
+        let visibility =
+            fog.visibility.as_ref().map_or(Some(None), |v| self.visibility(v, fog.height_m).map(Some));
+        let why = "one of advection, homogeneous, linear_gradient, layered";
+        let name = self.required("fog.model", fog.model, why)?;
+        self.foreign_keys(fog, name);
+        let model = self.model(fog, name);
+        Some(FogSpec { model: model?, phase: phase?, visibility: visibility?, datum_m: datum_m? })
+    }
+
+    fn visibility(&mut self, visibility: &VisibilityFile, height_m: Option<f64>) -> Option<Visibility> {
+        let mor = self.required("fog.visibility.mor_m", visibility.mor_m, "1 to 100000 m");
+        let mor = mor.and_then(|mor| self.range("fog.visibility.mor_m", mor, ranges::MOR_M));
+        let path = "fog.visibility.altitude_m";
+        let altitude = self.required(path, visibility.altitude_m, "the altitude in metres where mor_m holds");
+        let altitude = altitude.and_then(|z| self.range(path, z, ranges::VISIBILITY_ALTITUDE_M));
+        if let (Some(altitude), Some(height)) = (altitude, height_m)
+            && altitude > height
+        {
+            self.problem(path, format!("{altitude} m is above the layer, whose height_m is {height} m"));
+            return None;
+        }
+        Some(Visibility { mor_m: mor?, altitude_m: altitude? })
+    }
+
+    /// Keys of another model: a sign of a mistake, so never ignored.
+    fn foreign_keys(&mut self, fog: &FogFile, model: FogModelName) {
+        let keys: [(&str, bool, &[FogModelName]); 7] = [
+            ("height_m", fog.height_m.is_some(), &WITH_HEIGHT),
+            ("number_density_scale", fog.number_density_scale.is_some(), &[Advection]),
+            ("sigma_t_1_m", fog.sigma_t_1_m.is_some(), &[Homogeneous]),
+            ("sigma_t_base_1_m", fog.sigma_t_base_1_m.is_some(), &[LinearGradient]),
+            ("sigma_t_top_1_m", fog.sigma_t_top_1_m.is_some(), &[LinearGradient]),
+            ("file", fog.file.is_some(), &[Layered]),
+            ("single_scattering_albedo", fog.single_scattering_albedo.is_some(), &WITH_ALBEDO),
+        ];
+        for (key, given, owners) in keys {
+            if given && !owners.contains(&model) {
+                let names: Vec<&str> = owners.iter().map(|owner| owner.name()).collect();
+                let models = if names.len() == 1 { "model" } else { "models" };
+                let message =
+                    format!("`{key}` belongs to {models} {}, not {}", names.join(", "), model.name());
+                self.problem(&format!("fog.{key}"), message);
+            }
+        }
+    }
+
+    fn model(&mut self, fog: &FogFile, name: FogModelName) -> Option<FogModel> {
+        let height = if WITH_HEIGHT.contains(&name) {
+            let height = self.required("fog.height_m", fog.height_m, "the layer's thickness, 1 to 5000 m");
+            height.and_then(|height| self.range("fog.height_m", height, ranges::LAYER_HEIGHT_M))
+        } else {
+            None
+        };
+        let albedo = fog.single_scattering_albedo.unwrap_or(DEFAULT_ALBEDO);
+        let albedo = self.range("fog.single_scattering_albedo", albedo, ranges::ALBEDO);
+        Some(match name {
+            Advection => {
+                let scale = fog.number_density_scale.unwrap_or(DEFAULT_SCALE);
+                let scale = self.range("fog.number_density_scale", scale, ranges::DENSITY_SCALE);
+                FogModel::Advection { height_m: height?, number_density_scale: scale? }
+            }
+            Homogeneous => {
+                let sigma_t = self.optional("fog.sigma_t_1_m", fog.sigma_t_1_m, ranges::SIGMA_T_1_M);
+                FogModel::Homogeneous {
+                    height_m: height?,
+                    sigma_t_1_m: sigma_t?,
+                    single_scattering_albedo: albedo?,
+                }
+            }
+            LinearGradient => {
+                let base = self.optional("fog.sigma_t_base_1_m", fog.sigma_t_base_1_m, ranges::SIGMA_T_1_M);
+                let top = self.optional("fog.sigma_t_top_1_m", fog.sigma_t_top_1_m, ranges::SIGMA_T_1_M);
+                FogModel::LinearGradient {
+                    height_m: height?,
+                    sigma_t_base_1_m: base?,
+                    sigma_t_top_1_m: top?,
+                    single_scattering_albedo: albedo?,
+                }
+            }
+            Layered => {
+                let why = "path of a CSV file with columns altitude_m,sigma_t_1_m";
+                let file = self.required("fog.file", fog.file.as_ref(), why);
+                FogModel::Layered { file: file?.into(), single_scattering_albedo: albedo? }
+            }
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! Checks of `lighting`, and what the presets are.
+
+use super::Check;
+use crate::{
+    frame::{EnvironmentSpec, LightingSpec, SunSpec},
+    ranges,
+    schema::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile},
+};
+
+impl Check<'_> {
+    /// `rendered_nm` is the frame's only wavelength, if it has one.
+    pub(super) fn lighting(
+        &mut self,
+        lighting: &LightingFile,
+        rendered_nm: Option<f64>,
+    ) -> Option<LightingSpec> {
+        let map = match lighting {
+            LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
+            LightingFile::Map(map) => map,
+        };
+        let LightingMap { environment, sun, scene_emitters } = map;
+        let environment =
+            environment.as_ref().map_or(Some(None), |e| self.environment(e, rendered_nm).map(Some));
+        let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, rendered_nm).map(Some));
+        Some(LightingSpec {
+            preset: None,
+            environment: environment?,
+            sun: sun?,
+            scene_emitters: *scene_emitters,
+        })
+    }
+
+    fn environment(&mut self, file: &EnvironmentFile, rendered_nm: Option<f64>) -> Option<EnvironmentSpec> {
+        let path = "lighting.environment.radiance";
+        let radiance = self.required(path, file.radiance, "radiance of the surroundings, 0 or more");
+        let radiance = radiance.and_then(|radiance| self.range(path, radiance, ranges::RADIANCE));
+        let path = "lighting.environment.wavelength_nm";
+        let wavelength = self.wavelength(path, file.wavelength_nm, rendered_nm);
+        Some(EnvironmentSpec { radiance: radiance?, wavelength_nm: wavelength? })
+    }
+
+    fn sun(&mut self, file: &SunFile, rendered_nm: Option<f64>) -> Option<SunSpec> {
+        let path = "lighting.sun.elevation_deg";
+        let elevation = self.required(path, file.elevation_deg, "degrees above the horizon, -90 to 90");
+        let elevation = elevation.and_then(|elevation| self.range(path, elevation, ranges::ELEVATION_DEG));
+        let path = "lighting.sun.azimuth_deg";
+        let azimuth =
+            self.required(path, file.azimuth_deg, "heading towards the sun in degrees, 0 = -Z, 90 = +X");
+        let azimuth = azimuth.and_then(|azimuth| self.range(path, azimuth, ranges::HEADING_DEG));
+        let path = "lighting.sun.irradiance";
+        let irradiance =
+            self.required(path, file.irradiance, "irradiance on a plane normal to the beam, 0 or more");
+        let irradiance = irradiance.and_then(|irradiance| self.range(path, irradiance, ranges::RADIANCE));
+        let path = "lighting.sun.angular_diameter_deg";
+        let diameter = self.range(path, file.angular_diameter_deg, ranges::SUN_DIAMETER_DEG);
+        let wavelength = self.wavelength("lighting.sun.wavelength_nm", file.wavelength_nm, rendered_nm);
+        Some(SunSpec {
+            elevation_deg: elevation?,
+            azimuth_deg: azimuth?,
+            irradiance: irradiance?,
+            angular_diameter_deg: diameter?,
+            wavelength_nm: wavelength?,
+        })
+    }
+
+    /// A light given at one wavelength has no meaning at any other.
+    fn wavelength(
+        &mut self,
+        path: &str,
+        light_nm: Option<f64>,
+        rendered_nm: Option<f64>,
+    ) -> Option<Option<f64>> {
+        let Some(light) = self.optional(path, light_nm, ranges::WAVELENGTH_NM)? else { return Some(None) };
+        if rendered_nm == Some(light) {
+            return Some(Some(light));
+        }
+        let rendered = match rendered_nm {
+            None => "is absent (the whole visible spectrum is rendered)".to_owned(),
+            Some(nm) => format!("is {nm} nm"),
+        };
+        let rule = "a light given at one wavelength needs render.wavelength_nm to be the same";
+        self.problem(path, format!("{light} nm, but render.wavelength_nm {rendered}; {rule}"));
+        None
+    }
+}
+
+/// The numbers behind a preset.
+fn preset_lighting(preset: Preset) -> LightingSpec {
+    let environment = |radiance| Some(EnvironmentSpec { radiance, wavelength_nm: None });
+    match preset {
+        Preset::Day => LightingSpec {
+            preset: Some("day"),
+            environment: environment(1.0),
+            sun: None,
+            scene_emitters: false,
+        },
+        Preset::Night => {
+            LightingSpec { preset: Some("night"), environment: None, sun: None, scene_emitters: true }
+        }
+        Preset::Sunny => LightingSpec {
+            preset: Some("sunny"),
+            environment: environment(0.3),
+            sun: Some(SunSpec {
+                elevation_deg: 35.0,
+                azimuth_deg: 140.0,
+                irradiance: 2.0,
+                angular_diameter_deg: SUN_DIAMETER_DEG,
+                wavelength_nm: None,
+            }),
+            scene_emitters: false,
+        },
+    }
+}

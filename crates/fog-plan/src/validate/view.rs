@@ -1,0 +1,95 @@
+//! Checks of `scene`, `camera`, `sensor`, `render` and `outputs`.
+
+use super::Check;
+use crate::{
+    frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec},
+    ranges,
+    schema::{CameraFile, OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile},
+};
+
+impl Check<'_> {
+    pub(super) fn scene(&mut self, scene: Option<&OrNone<SceneFile>>) -> Option<Option<SceneSpec>> {
+        let scene = match self.required("scene", scene, "give {file: …} or `none`")? {
+            OrNone::None(_) => return Some(None),
+            OrNone::Some(scene) => scene,
+        };
+        let file = self.required("scene.file", scene.file.as_deref(), "path of a .glb or .gltf file")?;
+        let lower = file.to_ascii_lowercase();
+        if !(lower.ends_with(".glb") || lower.ends_with(".gltf")) {
+            self.problem("scene.file", format!("\"{file}\" is not a .glb or .gltf file"));
+            return None;
+        }
+        Some(Some(SceneSpec { file: file.into() }))
+    }
+
+    pub(super) fn camera(&mut self, camera: &CameraFile, datum_m: f64) -> Option<CameraSpec> {
+        let altitude = self.range("camera.altitude_m", camera.altitude_m, ranges::CAMERA_ALTITUDE_M);
+        let x = self.range("camera.position_m.0", camera.position_m[0], ranges::POSITION_M);
+        let y = self.range("camera.position_m.1", camera.position_m[1], ranges::POSITION_M);
+        let z = self.range("camera.position_m.2", camera.position_m[2], ranges::POSITION_M);
+        let heading = self.range("camera.heading_deg", camera.heading_deg, ranges::HEADING_DEG);
+        let pitch = self.range("camera.pitch_deg", camera.pitch_deg, ranges::PITCH_DEG);
+        let roll = self.range("camera.roll_deg", camera.roll_deg, ranges::ROLL_DEG);
+        y?;
+        Some(CameraSpec {
+            altitude_m: altitude?,
+            position_m: [x?, datum_m + altitude?, z?],
+            heading_deg: heading?,
+            pitch_deg: pitch?,
+            roll_deg: roll?,
+        })
+    }
+
+    pub(super) fn sensor(&mut self, sensor: &SensorFile) -> Option<SensorSpec> {
+        let width = self.whole("sensor.width_px", sensor.width_px, ranges::IMAGE_PX);
+        let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
+        let fov = self.range("sensor.horizontal_fov_deg", sensor.horizontal_fov_deg, ranges::FOV_DEG);
+        let exposure = self.range("sensor.exposure", sensor.exposure, ranges::EXPOSURE);
+        Some(SensorSpec {
+            width_px: width?,
+            height_px: height?,
+            horizontal_fov_deg: fov?,
+            exposure: exposure?,
+        })
+    }
+
+    pub(super) fn render(&mut self, render: &RenderFile) -> Option<RenderSpec> {
+        let samples = self.whole("render.samples", render.samples, ranges::SAMPLES);
+        let depth = match render.max_depth {
+            None => Some(None),
+            Some(depth) => self.whole("render.max_depth", depth, ranges::MAX_DEPTH).map(Some),
+        };
+        let wavelength = self.optional("render.wavelength_nm", render.wavelength_nm, ranges::WAVELENGTH_NM);
+        Some(RenderSpec { samples: samples?, max_depth: depth?, wavelength_nm: wavelength? })
+    }
+
+    pub(super) fn outputs(&mut self, outputs: &Outputs) -> Option<Vec<Output>> {
+        if outputs.0.is_empty() {
+            self.problem("outputs", "empty; name at least one output");
+            return None;
+        }
+        let mut unique = true;
+        for (index, output) in outputs.0.iter().enumerate() {
+            if outputs.0[..index].contains(output) {
+                self.problem(&format!("outputs.{index}"), "named twice");
+                unique = false;
+            }
+        }
+        let mut sorted: Vec<Output> = outputs.0.iter().map(|output| domain(*output)).collect();
+        sorted.sort_unstable();
+        unique.then_some(sorted)
+    }
+}
+
+fn domain(output: OutputFile) -> Output {
+    match output {
+        OutputFile::Image => Output::Image,
+        OutputFile::Hdr => Output::Hdr,
+        OutputFile::Depth => Output::Depth,
+        OutputFile::Distance => Output::Distance,
+        OutputFile::Transmittance => Output::Transmittance,
+        OutputFile::Tau => Output::Tau,
+        OutputFile::Direct => Output::Direct,
+        OutputFile::Airlight => Output::Airlight,
+    }
+}

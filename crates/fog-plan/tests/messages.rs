@@ -1,0 +1,337 @@
+//! Every kind of mistake, with the exact message.
+
+/// The first five lines; tests add the rest, from line 6.
+const HEAD: &str = "version: 1\nname: t\nscene: {file: a.glb}\nlighting: day\nrender: {samples: 4}\n";
+
+fn errors_with(text: &str, sets: &[&str]) -> Vec<String> {
+    let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
+    match fog_plan::parse(text, "configs/x.yaml", &sets) {
+        Ok(plan) => panic!("no error, but {} frames", plan.len()),
+        Err(error) => error.to_string().lines().map(str::to_owned).collect(),
+    }
+}
+
+/// Errors of the head followed by `lines`.
+fn errors(lines: &str) -> Vec<String> {
+    errors_with(&format!("{HEAD}{lines}"), &[])
+}
+
+#[test]
+fn unknown_keys() {
+    assert_eq!(
+        errors("fog:\n  model: advection\n  heigth_m: 100\n"),
+        [
+            "configs/x.yaml:8:3: fog.heigth_m: unknown key; expected one of model, height_m, number_density_scale, \
+             sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, single_scattering_albedo, phase, visibility, datum_m; \
+             did you mean `height_m`?"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nweather: bad\n"),
+        [
+            "configs/x.yaml:7:1: weather: unknown key; expected one of version, name, seed, scene, fog, camera, sensor, \
+             lighting, render, outputs, sweep"
+        ]
+    );
+}
+
+#[test]
+fn wrong_types() {
+    assert_eq!(
+        errors("fog: none\ncamera:\n  altitude_m: tall\n"),
+        ["configs/x.yaml:8:15: camera.altitude_m: expected a number (metres), found text \"tall\""]
+    );
+    assert_eq!(
+        errors("fog: none\nsensor: {width_px: 12.5, height_px: [1]}\n"),
+        [
+            "configs/x.yaml:7:20: sensor.width_px: expected a whole number (pixels), found 12.5",
+            "configs/x.yaml:7:37: sensor.height_px: expected a whole number (pixels), found a list of 1 item",
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\ncamera: {position_m: [0, 1]}\n"),
+        [
+            "configs/x.yaml:7:22: camera.position_m: expected a list of 3 numbers (metres), found a list of 2 items"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\ncamera: {position_m: [0, x, 1]}\n"),
+        ["configs/x.yaml:7:26: camera.position_m.1: expected a number (metres), found text \"x\""]
+    );
+    assert_eq!(
+        errors("fog: none\nsensor: wide\n"),
+        [
+            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, exposure, \
+          found text \"wide\""
+        ]
+    );
+    assert_eq!(
+        errors("fog: advection\n"),
+        ["configs/x.yaml:6:6: fog: expected `none` or a map such as {model: advection, height_m: 180}, \
+          found text \"advection\""]
+    );
+    assert_eq!(
+        errors("fog: none\nseed: -1\n"),
+        ["configs/x.yaml:7:7: seed: expected a whole number from 0 to 18446744073709551615, found -1"]
+    );
+}
+
+#[test]
+fn unknown_values() {
+    let head = HEAD.replace("lighting: day", "lighting: niht");
+    assert_eq!(
+        errors_with(&format!("{head}fog: none\n"), &[]),
+        [
+            "configs/x.yaml:4:11: lighting: unknown value \"niht\"; expected one of day, night, sunny; did you mean `night`?"
+        ]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: {hgg: 0.8}}\n"),
+        [
+            "configs/x.yaml:6:45: fog.phase: unknown value \"hgg\"; expected one of mie, hg, mie_mean_diameter; \
+          did you mean `hg`?"
+        ]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: hg}\n"),
+        ["configs/x.yaml:6:45: fog.phase: `hg` needs a value: {hg: …}"]
+    );
+    assert_eq!(
+        errors("fog: none\noutputs: [image, image, tua]\n"),
+        [
+            "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
+          transmittance, tau, direct, airlight; did you mean `tau`?"
+        ]
+    );
+    assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);
+}
+
+#[test]
+fn ranges() {
+    assert_eq!(
+        errors("fog: {model: advection, height_m: -5}\n"),
+        ["configs/x.yaml:6:35: fog.height_m: -5 m is out of range; valid: 1 to 5000 m"]
+    );
+    assert_eq!(
+        errors("fog: {model: homogeneous, height_m: 50, sigma_t_1_m: 11, phase: {hg: 1}}\n"),
+        [
+            "configs/x.yaml:6:70: fog.phase.hg: 1 is out of range; valid: -0.999 to 0.999",
+            "configs/x.yaml:6:54: fog.sigma_t_1_m: 11 1/m is out of range; valid: 0 to 10 1/m",
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsensor: {exposure: 0, width_px: 0}\ncamera: {position_m: [0, 0, 1e9]}\n"),
+        [
+            "configs/x.yaml:7:33: sensor.width_px: 0 px is out of range; valid: 1 to 16384 px",
+            "configs/x.yaml:7:20: sensor.exposure: 0 is out of range; valid: above 0 up to 1000000000",
+            "configs/x.yaml:8:29: camera.position_m.2: 1000000000 m is out of range; valid: -10000000 to 10000000 m",
+        ]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, visibility: {mor_m: 300, altitude_m: 60}}\n"),
+        ["configs/x.yaml:6:76: fog.visibility.altitude_m: 60 m is above the layer, whose height_m is 50 m"]
+    );
+}
+
+#[test]
+fn missing_keys() {
+    assert_eq!(
+        errors_with("seed: 3\n", &[]),
+        [
+            "configs/x.yaml:1:1: version: missing; write `version: 1`",
+            "configs/x.yaml:1:1: name: missing; give the data set a name, such as `name: quickstart`",
+            "configs/x.yaml:1:1: scene: missing; give {file: …} or `none`",
+            "configs/x.yaml:1:1: fog: missing; give `none` or a map such as {model: advection, height_m: 180}",
+        ]
+    );
+    assert_eq!(
+        errors("fog:\n  model: layered\n"),
+        ["configs/x.yaml:7:3: fog.file: missing; path of a CSV file with columns altitude_m,sigma_t_1_m"]
+    );
+    assert_eq!(
+        errors_with("version: 2\nname: a b\nscene: {file: a.obj}\nfog: none\n", &[]),
+        [
+            "configs/x.yaml:1:10: version: version 2 is unknown; expected 1; did you mean `1`?",
+            "configs/x.yaml:2:7: name: \"a b\" is not a name: use 1 to 100 letters, digits, `.`, `_` and `-`",
+            "configs/x.yaml:3:15: scene.file: \"a.obj\" is not a .glb or .gltf file",
+        ]
+    );
+    assert_eq!(
+        errors_with("[]", &[]),
+        ["configs/x.yaml:1:1: expected a configuration (a map), found a list of 0 items"]
+    );
+    assert_eq!(errors_with("", &[]), ["configs/x.yaml:1:1: expected a configuration (a map), found nothing"]);
+}
+
+#[test]
+fn keys_of_another_model() {
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, sigma_t_1_m: 0.1, single_scattering_albedo: 1}\n"),
+        [
+            "configs/x.yaml:6:51: fog.sigma_t_1_m: `sigma_t_1_m` belongs to model homogeneous, not advection",
+            "configs/x.yaml:6:82: fog.single_scattering_albedo: `single_scattering_albedo` belongs to models homogeneous, \
+             linear_gradient, layered, not advection",
+        ]
+    );
+}
+
+#[test]
+fn lights_at_a_wavelength() {
+    let head = HEAD.replace("lighting: day", "lighting: {environment: {radiance: 1, wavelength_nm: 550}}");
+    assert_eq!(
+        errors_with(&format!("{head}fog: none\n"), &[]),
+        [
+            "configs/x.yaml:4:54: lighting.environment.wavelength_nm: 550 nm, but render.wavelength_nm is absent (the whole \
+             visible spectrum is rendered); a light given at one wavelength needs render.wavelength_nm to be the same"
+        ]
+    );
+    let set = ["render.wavelength_nm=550".to_owned()];
+    assert!(fog_plan::parse(&format!("{head}fog: none\n"), "x", &set).is_ok());
+}
+
+#[test]
+fn yaml_mistakes() {
+    assert_eq!(
+        errors("fog: none\ncamera: {pitch_deg: 1, pitch_deg: 2}\n"),
+        ["configs/x.yaml:7:24: duplicate key `pitch_deg`"]
+    );
+    assert_eq!(errors("fog: none\nfog: none\n"), ["configs/x.yaml:7:1: duplicate key `fog`"]);
+    assert_eq!(errors("fog: [none\n"), ["configs/x.yaml:6:6: not valid YAML: unclosed bracket '['"]);
+}
+
+#[test]
+fn overrides() {
+    let text = format!("{HEAD}fog: none\n");
+    assert_eq!(
+        errors_with(&text, &["camera.altitude_m=high"]),
+        ["--set camera.altitude_m=high: camera.altitude_m: expected a number (metres), found text \"high\""]
+    );
+    assert_eq!(
+        errors_with(&text, &["camera.altitud_m=3"]),
+        [
+            "--set camera.altitud_m=3: camera.altitud_m: unknown key; expected one of altitude_m, position_m, heading_deg, \
+             pitch_deg, roll_deg; did you mean `altitude_m`?"
+        ]
+    );
+    assert_eq!(
+        errors_with(&text, &["fog.height_m=260", "camera", "seed={"]),
+        [
+            "--set fog.height_m=260: fog.height_m: `fog` is text \"none\", so `height_m` cannot be set inside it",
+            "--set camera: expected KEY=VALUE, such as camera.altitude_m=30",
+            "--set seed={: seed: not valid YAML: unclosed bracket '{'",
+        ]
+    );
+    assert_eq!(
+        errors_with(&text, &["camera.position_m.3=1", "camera..x=1"]),
+        [
+            "--set camera.position_m.3=1: camera.position_m.3: `camera.position_m` is a list of 3 items; expected an index \
+             from 0 to 2, found `3`",
+            "--set camera..x=1: camera..x: `camera..x` is not a dotted path",
+        ]
+    );
+    assert_eq!(
+        errors_with(&text, &["fog.model=advection"]).len(),
+        1,
+        "fog is a word: its model cannot be set"
+    );
+}
+
+#[test]
+fn axis_values_point_at_themselves() {
+    assert_eq!(
+        errors("sweep:\n  axes:\n    fog:\n      - none\n      - {model: advection, height_m: 0}\n"),
+        ["configs/x.yaml:10:38: fog.height_m: 0 m is out of range; valid: 1 to 5000 m (from axis `fog`)"]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    camera.altitude_m: [2, tall]\n"),
+        ["configs/x.yaml:9:28: camera.altitude_m: expected a number (metres), found text \"tall\" \
+          (from axis `camera.altitude_m`)"]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    camera.altitud_m: [2, 3, 4]\n"),
+        [
+            "configs/x.yaml:9:5: camera.altitud_m: unknown key; expected one of altitude_m, position_m, heading_deg, \
+          pitch_deg, roll_deg; did you mean `altitude_m`? (from axis `camera.altitud_m`)"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    fog.height_m: [100]\n"),
+        ["configs/x.yaml:9:20: fog.height_m: `fog` is text \"none\", so `height_m` cannot be set inside it \
+          (from axis `fog.height_m`)"]
+    );
+}
+
+#[test]
+fn wrong_sweeps() {
+    assert_eq!(
+        errors(
+            "fog: none\nsweep:\n  mode: zip\n  axes:\n    camera.altitude_m: [2, 3]\n    camera.pitch_deg: [1, 2, 3]\n"
+        ),
+        [
+            "configs/x.yaml:10:5: sweep.axes: mode zip needs equally many values on every axis: camera.altitude_m has 2, \
+          camera.pitch_deg has 3"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  mode: random\n  axes:\n    camera.altitude_m: {from: 2, to: 3}\n"),
+        ["configs/x.yaml:8:3: sweep.count: missing; random and sobol need the number of frames"]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    camera.altitude_m: {from: 2, to: 3}\n"),
+        [
+            "configs/x.yaml:9:5: sweep.axes.camera.altitude_m: needs count or step: only modes random and sobol draw from \
+          an interval"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  mode: gird\n  axes: {camera.altitude_m: [1]}\n"),
+        [
+            "configs/x.yaml:8:9: sweep.mode: unknown value \"gird\"; expected one of grid, zip, random, sobol; \
+          did you mean `grid`?"
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes: {seed: [1, 2], camera.altitude_m: {from: 1, step: 2}}\n"),
+        [
+            "configs/x.yaml:8:10: sweep.axes.seed: an axis cannot change `seed`; expected one of scene, fog, camera, \
+             sensor, lighting, render, outputs",
+            "configs/x.yaml:8:43: sweep.axes.camera.altitude_m.to: missing; this key is required",
+        ]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    camera.altitude_m: [2, 2.0]\n"),
+        [
+            "configs/x.yaml:9:5: sweep.axes: frames 0 and 1 are identical (camera.altitude_m = 2.0); every frame must \
+          differ from all others"
+        ]
+    );
+    assert_eq!(
+        errors(
+            "fog: none\nsweep:\n  axes:\n    camera.altitude_m: {from: 0, to: 1, count: 100000}\n    camera.pitch_deg: {from: 0, to: 1, count: 100000}\n"
+        ),
+        ["configs/x.yaml:9:5: sweep.axes: 100000 × 100000 frames are too many; at most 100000000"]
+    );
+    assert_eq!(
+        errors("fog: none\nsweep:\n  axes:\n    \"camera.altitude_m, camera.pitch_deg\": [[1, 2], [3]]\n"),
+        [
+            "configs/x.yaml:9:53: sweep.axes.camera.altitude_m, camera.pitch_deg.1: expected a list of 2 values, one per \
+          path, found a list of 1 item"
+        ]
+    );
+}
+
+#[test]
+fn all_problems_at_once_but_not_too_many() {
+    let found =
+        errors("fog: {model: advection, height_m: -1}\ncamera: {altitude_m: x, pitch_deg: 100}\nsensr: {}\n");
+    assert_eq!(found.len(), 4, "{found:#?}");
+    let axis: Vec<String> = (0..50).map(|i| (i + 100).to_string()).collect();
+    let many = errors(&format!("fog: none\nsweep:\n  axes:\n    camera.pitch_deg: [{}]\n", axis.join(", ")));
+    assert_eq!(many.len(), 20);
+}
+
+#[test]
+fn unreadable_file() {
+    let error = fog_plan::load(std::path::Path::new("no/such.yaml"), &[]).unwrap_err().to_string();
+    assert!(error.starts_with("no/such.yaml: cannot read the configuration: "), "{error}");
+}

@@ -1,0 +1,117 @@
+//! Loading a glTF 2.0 scene (.glb or .gltf) from a file that nobody vouches for.
+
+mod accessor;
+mod container;
+mod document;
+mod files;
+mod images;
+mod materials;
+mod nodes;
+mod primitives;
+mod uri;
+
+use crate::error::{Failure, SceneError};
+use crate::geometry::Geometry;
+use crate::material::Material;
+use crate::texture::Texture;
+use std::path::Path;
+
+/// What a scene file may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of the scene file and of all files that it names, together.
+    pub max_file_bytes: u64,
+    /// Triangles over all nodes, dropped ones included.
+    pub max_triangles: usize,
+    /// Pixels of all images in use, together; each takes 4 bytes.
+    pub max_texture_pixels: u64,
+}
+
+impl Default for Limits {
+    /// 2 GiB of files, 20 million triangles, 268 million pixels.
+    fn default() -> Self {
+        Self { max_file_bytes: 1 << 31, max_triangles: 20_000_000, max_texture_pixels: 1 << 28 }
+    }
+}
+
+/// A node with a mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneObject {
+    /// Name of the node, else of its mesh, else `node N`.
+    pub name: String,
+    /// `extras.class` of the node, its mesh or its nearest ancestor that has one.
+    pub class: Option<String>,
+    /// `extras.instance`, found in the same way.
+    pub instance: Option<String>,
+}
+
+/// A scene in memory; the default one is empty space.
+#[derive(Clone, Debug, Default)]
+pub struct LoadedScene {
+    /// All triangles, in the order of the nodes (depth first), in world space.
+    pub geometry: Geometry,
+    /// Materials; [`crate::Triangle::material`] is an index of them.
+    pub materials: Vec<Material>,
+    /// Textures; [`crate::TextureRef::texture`] is an index of them.
+    pub textures: Vec<Texture>,
+    /// Nodes with meshes; [`crate::Triangle::object`] is an index of them.
+    pub objects: Vec<SceneObject>,
+    /// What was left out or is not supported, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Sentences without repetition, at most a hundred.
+#[derive(Debug, Default)]
+struct Warnings(Vec<String>);
+
+impl Warnings {
+    const MOST: usize = 100;
+
+    fn add(&mut self, text: String) {
+        if self.0.len() < Self::MOST && !self.0.contains(&text) {
+            self.0.push(text);
+        } else if self.0.len() == Self::MOST {
+            self.0.push("more warnings were left out".into());
+        }
+    }
+}
+
+/// Loads a scene: its default one, or its first.
+///
+/// Reads `path` and nothing outside of its folder; URIs with a scheme (other than `data:`), absolute paths and paths that
+/// leave the folder, links included, are refused.
+///
+/// # Errors
+/// [`SceneError`] names the file, the node, mesh, material or image, and what is wrong; damaged, hostile or oversized
+/// files are errors, never panics.
+pub fn load(path: &Path, limits: &Limits) -> Result<LoadedScene, SceneError> {
+    load_inside(path, limits).map_err(|Failure { place, kind }| SceneError {
+        file: path.to_owned(),
+        place,
+        kind,
+    })
+}
+
+fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
+    let mut warnings = Warnings::default();
+    let mut files = files::Files::new(path, limits.max_file_bytes);
+    let bytes = files.read_scene()?;
+    let container::Parts { json, blob } = container::split(&bytes)?;
+    let document = document::parse(json, &mut warnings)?;
+    let buffers = accessor::Buffers::load(&document, blob, &mut files)?;
+
+    let mut images = images::Images::new(&document, &buffers, &mut files, limits.max_texture_pixels);
+    let mut materials = document
+        .materials()
+        .map(|material| materials::convert(&material, &mut images, &mut warnings))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let textures = images.into_textures();
+    // Primitives without a material use glTF's default one, which comes last.
+    materials.push(Material::default());
+
+    let nodes::Flat { triangles, objects } =
+        nodes::flatten(&document, &buffers, &materials, limits.max_triangles, &mut warnings)?;
+    let masks = materials.iter().map(|material| material.alpha_mask(&textures)).collect();
+    let geometry = Geometry::new(triangles, masks);
+    Ok(LoadedScene { geometry, materials, textures, objects, warnings: warnings.0 })
+}

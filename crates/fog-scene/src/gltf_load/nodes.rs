@@ -1,0 +1,215 @@
+//! Walking the node tree: every mesh instance becomes triangles in world space.
+
+use super::accessor::Buffers;
+use super::primitives::{self, Primitive, mesh_name};
+use super::{SceneObject, Warnings};
+use crate::error::{Failure, SceneErrorKind};
+use crate::material::Material;
+use crate::triangle::Triangle;
+use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
+use gltf::scene::Transform;
+use gltf::{Document, Node};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Vertices farther than this from the origin are refused, in metres.
+const FARTHEST: f64 = 1e9;
+
+/// The scene without its hierarchy.
+#[derive(Default)]
+pub(super) struct Flat {
+    pub(super) triangles: Vec<Triangle>,
+    pub(super) objects: Vec<SceneObject>,
+}
+
+/// What a node hands down to its children.
+#[derive(Clone)]
+struct Inherited {
+    world: DMat4,
+    class: Option<Rc<str>>,
+    instance: Option<Rc<str>>,
+}
+
+/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one.
+pub(super) fn flatten(
+    document: &Document,
+    buffers: &Buffers,
+    materials: &[Material],
+    max_triangles: usize,
+    warnings: &mut Warnings,
+) -> Result<Flat, Failure> {
+    let scene = document.default_scene().or_else(|| document.scenes().next());
+    let scene = scene.ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
+    let mut flat = Flat::default();
+    let mut meshes: BTreeMap<usize, Rc<[Primitive]>> = BTreeMap::new();
+    // Triangles are counted in 31 bits.
+    let max_triangles = max_triangles.min(i32::MAX as usize);
+    let mut left = max_triangles;
+    let mut degenerate = 0u64;
+
+    let root = Inherited { world: DMat4::IDENTITY, class: None, instance: None };
+    let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
+    open.reverse();
+    let mut seen = vec![false; document.nodes().len()];
+    while let Some((node, above)) = open.pop() {
+        let name = node_name(&node);
+        let place = || format!("node `{name}`");
+        // A tree meets each node once: this also ends cycles.
+        if core::mem::replace(&mut seen[node.index()], true) {
+            let text = "is below itself, or has two parents: nodes must form a tree";
+            return Err(SceneErrorKind::Node(text.into()).at(place));
+        }
+        let mesh = node.mesh();
+        let label = |key: &str, above: &Option<Rc<str>>| {
+            let of_mesh = || mesh.as_ref().and_then(|mesh| extra(mesh.extras(), key));
+            extra(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+        };
+        let here = Inherited {
+            world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
+            class: label("class", &above.class),
+            instance: label("instance", &above.instance),
+        };
+        if let Some(mesh) = mesh {
+            let primitives = match meshes.get(&mesh.index()) {
+                Some(primitives) => Rc::clone(primitives),
+                None => {
+                    let read = primitives::read(&mesh, buffers, max_triangles, warnings)?;
+                    check_texture_sets(&read, &mesh_name(&mesh), materials, warnings);
+                    let read: Rc<[Primitive]> = read.into();
+                    meshes.insert(mesh.index(), Rc::clone(&read));
+                    read
+                }
+            };
+            let object = flat.objects.len() as u32;
+            let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
+            flat.objects.push(SceneObject {
+                name: name.clone(),
+                class: owned(&here.class),
+                instance: owned(&here.instance),
+            });
+            for primitive in primitives.iter() {
+                left = left.checked_sub(primitive.triangles.len()).ok_or_else(|| {
+                    Failure::from(SceneErrorKind::TooManyTriangles { limit: max_triangles })
+                })?;
+                let material = primitive.material.unwrap_or(materials.len() - 1) as u32;
+                let place = || format!("node `{name}`, mesh `{}`", mesh_name(&mesh));
+                degenerate += place_triangles(primitive, &here.world, material, object, &mut flat.triangles)
+                    .map_err(|e| e.at(place))?;
+            }
+        }
+        let first_child = open.len();
+        open.extend(node.children().map(|child| (child, here.clone())));
+        open[first_child..].reverse();
+    }
+    if degenerate > 0 {
+        warnings.add(format!("{degenerate} triangles without area were left out"));
+    }
+    Ok(flat)
+}
+
+fn node_name(node: &Node<'_>) -> String {
+    let of_mesh = || node.mesh().and_then(|mesh| mesh.name().map(str::to_owned));
+    node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
+}
+
+/// A string in `extras`.
+fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+    let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
+    extras.get(key)?.as_str().map(Rc::from)
+}
+
+/// A node's own matrix, in f64.
+fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
+    let matrix = match node.transform() {
+        Transform::Matrix { matrix } => {
+            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
+        }
+        Transform::Decomposed { translation, rotation, scale } => {
+            let rotation = DQuat::from_array(rotation.map(f64::from));
+            let Some(inverse_length) = Some(rotation.length_recip()).filter(|l| l.is_finite()) else {
+                return Err(SceneErrorKind::Node("has a rotation that is not a quaternion".into()));
+            };
+            DMat4::from_scale_rotation_translation(
+                DVec3::from_array(scale.map(f64::from)),
+                rotation * inverse_length,
+                DVec3::from_array(translation.map(f64::from)),
+            )
+        }
+    };
+    let last_row = matrix.row(3).to_array();
+    if !matrix.is_finite() || last_row != [0.0, 0.0, 0.0, 1.0] {
+        return Err(SceneErrorKind::Node("has a matrix that is not finite or not affine".into()));
+    }
+    Ok(matrix)
+}
+
+/// Appends a primitive's triangles in world space; returns how many were dropped for having no area.
+fn place_triangles(
+    primitive: &Primitive,
+    world: &DMat4,
+    material: u32,
+    object: u32,
+    out: &mut Vec<Triangle>,
+) -> Result<u64, SceneErrorKind> {
+    // Normals turn with the cofactor matrix, det · inverse transpose; a mirror also turns the winding.
+    let linear = DMat3::from_mat4(*world);
+    let mirrored = linear.determinant() < 0.0;
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let cofactor = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * if mirrored { -1.0 } else { 1.0 };
+
+    let mut dropped = 0;
+    for &[first, mut second, mut third] in &primitive.triangles {
+        if mirrored {
+            core::mem::swap(&mut second, &mut third);
+        }
+        let corners = [first, second, third];
+        let mut positions = [Vec3::ZERO; 3];
+        for (position, vertex) in positions.iter_mut().zip(corners) {
+            let local = DVec3::from_array(primitive.positions[vertex as usize].map(f64::from));
+            let point = world.transform_point3(local);
+            // Comparison with NaN is false: it is refused too.
+            if !point.to_array().iter().all(|c| c.abs() <= FARTHEST) {
+                return Err(SceneErrorKind::Vertex { vertex, position: point.to_array() });
+            }
+            *position = point.as_vec3();
+        }
+        let mut triangle = Triangle { material, object, ..Triangle::flat(positions) };
+        if triangle.is_degenerate() {
+            dropped += 1;
+            continue;
+        }
+        if !primitive.normals.is_empty() {
+            let flat = triangle.normals[0];
+            triangle.normals = corners.map(|vertex| {
+                let local = DVec3::from_array(primitive.normals[vertex as usize].map(f64::from));
+                (cofactor * local).try_normalize().map_or(flat, DVec3::as_vec3)
+            });
+            // Normals that all point behind the winding's front were exported inside out: the winding decides.
+            if triangle.normals.iter().all(|n| n.dot(flat) < 0.0) {
+                triangle.normals = triangle.normals.map(|n| -n);
+            }
+        }
+        for (uv, set) in triangle.uv.iter_mut().zip(&primitive.uv) {
+            *uv = corners.map(|vertex| set.get(vertex as usize).copied().unwrap_or_default());
+        }
+        out.push(triangle);
+    }
+    Ok(dropped)
+}
+
+/// Warns where a material reads texture coordinates that a mesh does not have.
+fn check_texture_sets(primitives: &[Primitive], mesh: &str, materials: &[Material], warnings: &mut Warnings) {
+    for primitive in primitives {
+        let Some(material) = primitive.material.and_then(|index| materials.get(index)) else { continue };
+        let textures =
+            [material.base_color_texture, material.metallic_roughness_texture, material.emissive_texture];
+        for texture in textures.into_iter().flatten() {
+            if primitive.uv[usize::from(texture.set & 1)].is_empty() && !primitive.positions.is_empty() {
+                warnings.add(format!(
+                    "mesh `{mesh}` has no TEXCOORD_{} for material `{}`: its texture is read at (0, 0)",
+                    texture.set, material.name
+                ));
+            }
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Damaged and malicious files: one clear message each, never a panic.
+
+mod common;
+
+use common::{TRIANGLE, data, document, glb, load_bytes, refusal};
+use fog_core::random::PathRng;
+use fog_scene::{Limits, SceneErrorKind, load};
+use serde_json::{Value, json};
+
+#[test]
+fn files_that_are_no_scene() {
+    let message = |bytes: &[u8]| load_bytes("x.glb", bytes).expect_err("must not load").to_string();
+    assert!(message(b"").contains("neither binary glTF"));
+    assert!(message(b"hello").contains("neither binary glTF"));
+    assert!(message(b"{").contains("not valid glTF JSON"));
+    assert!(message(b"glTF\x01\0\0\0\x0c\0\0\0").contains("version is 1"));
+    assert!(message(b"glTF\x02\0\0\0\0\0\0\0").contains("truncated"));
+    assert!(message(br#"{"asset": {"version": "2.0"}}"#).contains("no scene"));
+    let missing = load(std::path::Path::new("/nonexistent/a.glb"), &Limits::default()).unwrap_err();
+    assert!(missing.to_string().starts_with("/nonexistent/a.glb: cannot be read"), "{missing}");
+    let folder = load(&common::repository(), &Limits::default()).unwrap_err().to_string();
+    assert!(folder.contains("cannot be read"), "{folder}");
+}
+
+#[test]
+fn truncation_at_any_length() {
+    let bytes = std::fs::read(data("street_grey.glb")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cut.glb");
+    for length in (0..bytes.len()).step_by(1499).chain(0..64) {
+        std::fs::write(&path, &bytes[..length]).unwrap();
+        let error = load(&path, &Limits::default()).expect_err("must not load").to_string();
+        let expected = if length < 4 { "neither binary glTF" } else { "truncated" };
+        assert!(error.contains(expected), "{length}: {error}");
+        // With a header that lies about it, too.
+        if length >= 12 {
+            let mut lying = bytes[..length].to_vec();
+            lying[8..12].copy_from_slice(&(length as u32).to_le_bytes());
+            std::fs::write(&path, &lying).unwrap();
+            load(&path, &Limits::default()).expect_err("must not load");
+        }
+    }
+}
+
+#[test]
+fn flipped_bytes_never_panic() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    root["materials"] = json!([{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1]}}]);
+    let small = glb(&root, &bin);
+    let street = fog_scene::generate::generate("street").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("flipped.glb");
+    let mut loaded = 0;
+    for (bytes, rounds) in [(small, 4000), (street, 1500)] {
+        for round in 0..rounds {
+            let mut rng = PathRng::new(3, round, bytes.len() as u64);
+            let mut bad = bytes.clone();
+            for _ in 0..1 + rng.next_u64() % 3 {
+                let at = (rng.next_u64() % bad.len() as u64) as usize;
+                bad[at] = match rng.next_u64() % 3 {
+                    0 => bad[at] ^ (1 << (rng.next_u64() % 8)),
+                    1 => b"0123456789-.,:{}[]\"e"[(rng.next_u64() % 20) as usize],
+                    _ => rng.next_u64() as u8,
+                };
+            }
+            std::fs::write(&path, &bad).unwrap();
+            loaded += usize::from(load(&path, &Limits::default()).is_ok());
+        }
+    }
+    assert!(loaded > 0);
+}
+
+#[test]
+fn geometry_errors_name_their_place() {
+    let broken = |change: &dyn Fn(&mut Value, &mut Vec<u8>)| {
+        let (mut root, mut bin) = document(&TRIANGLE, 4);
+        change(&mut root, &mut bin);
+        refusal(&root, &bin)
+    };
+    let message = broken(&|_, bin| bin[4..8].copy_from_slice(&f32::NAN.to_le_bytes()));
+    assert!(message.contains("node `place`, mesh `thing`: vertex 0 is at (NaN, NaN, NaN) m"), "{message}");
+    let message = broken(&|_, bin| bin[0..4].copy_from_slice(&f32::INFINITY.to_le_bytes()));
+    assert!(message.contains("vertex 0"), "{message}");
+    let message = broken(&|root, _| root["nodes"][0]["scale"] = json!([1e30, 1e30, 1e30]));
+    assert!(message.contains("farther than 1e9 m"), "{message}");
+    let message = broken(&|root, _| root["accessors"][0]["count"] = 4.into());
+    assert!(
+        message.contains("mesh `thing`, primitive 0: POSITION reaches beyond buffer view 0"),
+        "{message}"
+    );
+    let message = broken(&|root, _| root["accessors"][0]["count"] = 4_000_000_000_000_000_000u64.into());
+    assert!(message.contains("POSITION has 4000000000000000000 elements"), "{message}");
+    let message = broken(&|root, _| root["accessors"][0]["byteOffset"] = u64::MAX.into());
+    assert!(message.contains("reaches beyond"), "{message}");
+    let message = broken(&|root, _| root["bufferViews"][0]["byteOffset"] = u64::MAX.into());
+    assert!(message.contains("reaches beyond its buffer"), "{message}");
+    let message = broken(&|root, _| root["bufferViews"][0]["byteStride"] = 4.into());
+    assert!(message.contains("12 bytes at distances of 4"), "{message}");
+    let message = broken(&|root, _| root["accessors"][0]["componentType"] = 5123.into());
+    assert!(message.contains("POSITION has components of type U16"), "{message}");
+    let message = broken(&|root, _| root["accessors"][0]["type"] = "VEC2".into());
+    assert!(message.contains("not a vector of 3"), "{message}");
+    let message = broken(&|root, _| root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 7.into());
+    assert!(message.contains("mesh `thing`: POSITION names accessor 7"), "{message}");
+    let message = broken(&|root, _| root["buffers"][0]["byteLength"] = 5000.into());
+    assert!(message.contains("buffer 0: is cut off: 36 of 5000 bytes"), "{message}");
+    let message = broken(&|root, _| root["nodes"][0]["mesh"] = 3.into());
+    assert!(message.contains("nodes[0].mesh"), "{message}");
+    let message = broken(&|root, _| root["meshes"][0]["primitives"][0]["attributes"] = json!({}));
+    assert!(message.contains("POSITION"), "{message}");
+    let message = broken(&|root, _| root["nodes"][0]["rotation"] = json!([0, 0, 0, 0]));
+    assert!(message.contains("node `place`: has a rotation"), "{message}");
+    let message = broken(&|root, _| {
+        root["nodes"][0]["matrix"] = json!([1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+    });
+    assert!(message.contains("not affine"), "{message}");
+}
+
+#[test]
+fn nodes_must_form_a_tree() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    root["nodes"] = json!([{"name": "a", "children": [1]}, {"name": "b", "children": [0]}]);
+    assert!(refusal(&root, &bin).contains("node `a`: is below itself"));
+    root["nodes"] = json!([{"name": "a", "children": [1, 1]}, {"name": "b", "mesh": 0}]);
+    assert!(refusal(&root, &bin).contains("node `b`: is below itself, or has two parents"));
+    // A chain of 100,000 nodes is a tree.
+    let chain =
+        (1..=100_000).map(|i| if i < 100_000 { json!({"children": [i]}) } else { json!({"mesh": 0}) });
+    root["nodes"] = chain.collect();
+    assert_eq!(load_bytes("deep.glb", &glb(&root, &bin)).unwrap().geometry.triangles().len(), 1);
+}
+
+#[test]
+fn extensions_and_images() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    root["extensionsRequired"] =
+        json!(["KHR_materials_ior", "KHR_draco_mesh_compression", "KHR_texture_basisu"]);
+    let message = refusal(&root, &bin);
+    assert!(message.ends_with("not supported: KHR_draco_mesh_compression, KHR_texture_basisu"), "{message}");
+    root["extensionsRequired"] = json!([]);
+    root["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
+    assert!(refusal(&root, &bin).contains("texture 0: has no PNG or JPEG source"));
+    root["textures"] = json!([]);
+    root["images"] = json!([{"name": "sky"}]);
+    assert!(refusal(&root, &bin).contains("image `sky`: has neither a URI nor a buffer view"));
+    root["images"] = json!([{"name": "sky", "bufferView": 0}]);
+    assert!(refusal(&root, &bin).contains("image `sky`: is in a buffer view but has no MIME type"));
+}
+
+#[test]
+fn limits_hold() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    root["nodes"] = json!([{"mesh": 0}, {"mesh": 0}, {"mesh": 0}]);
+    root["scenes"] = json!([{"nodes": [0, 1, 2]}]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.glb");
+    let bytes = glb(&root, &bin);
+    std::fs::write(&path, &bytes).unwrap();
+    let size = bytes.len() as u64;
+    let kind = |limits: Limits| load(&path, &limits).map_err(|e| e.kind);
+    let all = Limits::default();
+    assert!(matches!(
+        kind(Limits { max_triangles: 2, ..all }),
+        Err(SceneErrorKind::TooManyTriangles { limit: 2 })
+    ));
+    assert!(kind(Limits { max_triangles: 3, max_file_bytes: size, ..all }).is_ok());
+    assert!(matches!(kind(Limits { max_file_bytes: size - 1, ..all }), Err(SceneErrorKind::TooLarge { .. })));
+    let street = load(&data("street_grey.glb"), &Limits { max_texture_pixels: 1000, ..all });
+    assert!(matches!(street.map_err(|e| e.kind), Err(SceneErrorKind::TooManyPixels { limit: 1000 })));
+}
+
+#[test]
+fn triangles_without_area_are_counted() {
+    let (mut root, bin) = document(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 5);
+    let scene = load_bytes("scene.glb", &glb(&root, &bin)).unwrap();
+    assert_eq!(scene.geometry.triangles().len(), 1);
+    assert_eq!(scene.warnings, ["1 triangles without area were left out"]);
+    root["nodes"][0]["scale"] = json!([0, 0, 0]);
+    assert!(load_bytes("scene.glb", &glb(&root, &bin)).unwrap().geometry.triangles().is_empty());
+}
+
+#[test]
+fn uris_stay_in_the_folder() {
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("scene");
+    std::fs::create_dir_all(folder.join("parts")).unwrap();
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    std::fs::write(outer.path().join("secret.bin"), &bin).unwrap();
+    std::fs::write(folder.join("parts/my vertices.bin"), &bin).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(outer.path().join("secret.bin"), folder.join("link.bin")).unwrap();
+        std::os::unix::fs::symlink(outer.path(), folder.join("out")).unwrap();
+    }
+    let path = folder.join("scene.gltf");
+    let mut attempt = |uri: &str| {
+        root["buffers"][0]["uri"] = uri.into();
+        std::fs::write(&path, root.to_string()).unwrap();
+        load(&path, &Limits::default()).map(|s| s.geometry.triangles().len()).map_err(|e| e.to_string())
+    };
+    assert_eq!(attempt("parts/my%20vertices.bin"), Ok(1));
+    assert_eq!(attempt("parts/../parts/my vertices.bin"), Ok(1));
+    let embedded = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    assert_eq!(attempt(embedded), Ok(1));
+    let outside = outer.path().join("secret.bin").display().to_string();
+    for (uri, reason) in [
+        ("../secret.bin", "leaves the scene's folder"),
+        ("%2e%2e/secret.bin", "leaves the scene's folder"),
+        ("parts/../../secret.bin", "leaves the scene's folder"),
+        ("../scene/../secret.bin", "leaves the scene's folder"),
+        (outside.as_str(), "is an absolute path"),
+        (&format!("file://{outside}"), "has a scheme"),
+        ("https://example.org/a.bin", "has a scheme"),
+        #[cfg(unix)]
+        ("link.bin", "through a link"),
+        #[cfg(unix)]
+        ("out/secret.bin", "through a link"),
+        ("parts", "is not a file"),
+        ("absent.bin", "cannot be read"),
+        ("data:application/octet-stream;base64,AAAA", "cut off"),
+        ("data:application/octet-stream;base64,?", "not valid base64"),
+    ] {
+        let message = attempt(uri).expect_err(uri);
+        assert!(message.contains("buffer 0") && message.contains(reason), "{uri}: {message}");
+    }
+    assert!(attempt("parts/\u{1b}[2J").unwrap_err().contains("\\u{1b}"), "control characters are escaped");
+}

@@ -1,0 +1,118 @@
+//! Choosing a light for next-event estimation.
+//!
+//! The uniform environment is not among them: directions drawn from the phase function or the BSDF sample it perfectly
+//! already, and a shadow ray per event would double a path's cost (measured; docs/performance.md).
+
+use fog_core::Vec3A;
+use fog_core::colour::upsample;
+use fog_core::random::PathRng;
+use fog_core::spectrum::Spectrum;
+use fog_scene::scene::Scene;
+use fog_scene::Hit;
+
+/// Probabilities of choosing the sun and the emitters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightMix {
+    sun: f32,
+    emitters: f32,
+    shadow_scale: f32,
+}
+
+/// A light seen from a point.
+pub(crate) struct LightSample {
+    pub(crate) direction: Vec3A,
+    pub(crate) distance: f32,
+    /// Relative radiance; irradiance for a parallel beam.
+    pub(crate) radiance: Spectrum,
+    /// Density in 1/sr including the choice of the light; the probability of the choice for a parallel beam.
+    pdf: f32,
+    beam: bool,
+}
+
+impl LightSample {
+    /// Density of light sampling plus that of running into the light by chance (`scattering`, 1/sr).
+    #[inline]
+    pub(crate) fn density(&self, scattering: Spectrum) -> Spectrum {
+        let own = Spectrum::splat(self.pdf);
+        if self.beam { own } else { own + scattering }
+    }
+}
+
+impl LightMix {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let (sun, emitters) = (scene.sun.is_some(), !scene.emitters().is_empty());
+        let share = if sun && emitters { 0.5 } else { 1.0 };
+        // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
+        let sun_level = scene.sun.map_or(0.0, |s| s.irradiance / core::f32::consts::PI);
+        let level = sun_level.max(if emitters { 0.1 } else { 0.0 });
+        Self {
+            sun: if sun { share } else { 0.0 },
+            emitters: if emitters { share } else { 0.0 },
+            shadow_scale: if level > 0.0 { 1.0 / (0.02 * level) } else { 1.0 },
+        }
+    }
+
+    #[inline]
+    pub(crate) fn any(&self) -> bool {
+        self.sun + self.emitters > 0.0
+    }
+
+    #[inline]
+    pub(crate) fn sun_probability(&self) -> f32 {
+        self.sun
+    }
+
+    #[inline]
+    pub(crate) fn emitter_probability(&self) -> f32 {
+        self.emitters
+    }
+
+    /// Reciprocal of the contribution from which on a shadow ray is always traced.
+    #[inline]
+    pub(crate) fn shadow_scale(&self) -> f32 {
+        self.shadow_scale
+    }
+
+    /// Draws a light and a direction to it; `None` if there is none to be seen from here.
+    #[inline]
+    pub(crate) fn sample(
+        &self,
+        scene: &Scene,
+        from: Vec3A,
+        basis: &[Spectrum; 3],
+        rng: &mut PathRng,
+    ) -> Option<LightSample> {
+        if !self.any() {
+            return None;
+        }
+        if let Some(sun) = scene.sun.as_ref().filter(|_| self.emitters == 0.0 || rng.uniform() < self.sun) {
+            let beam = sun.is_beam();
+            let value = if beam { sun.irradiance } else { sun.radiance() };
+            return Some(LightSample {
+                direction: sun.sample(rng.uniform2()),
+                distance: f32::INFINITY,
+                radiance: Spectrum::splat(value),
+                pdf: if beam { self.sun } else { self.sun * sun.pdf() },
+                beam,
+            });
+        }
+        let point = scene.emitters().sample(rng.uniform(), rng.uniform2())?;
+        let offset = point.position - from;
+        let distance = offset.length();
+        let direction = offset / distance;
+        let [u, v] = point.barycentric;
+        let (rgb, normal) =
+            scene.emission_towards(&Hit { t: distance, triangle: point.triangle, u, v }, direction);
+        let cos = normal.dot(direction).abs();
+        if rgb == [0.0; 3] || cos <= 0.0 || distance <= 0.0 {
+            return None;
+        }
+        Some(LightSample {
+            direction,
+            distance,
+            radiance: upsample(rgb, basis),
+            pdf: self.emitters * point.pdf_area * distance * distance / cos,
+            beam: false,
+        })
+    }
+}

@@ -1,0 +1,337 @@
+//! The path tracer: spectral, volumetric, unidirectional with next-event estimation.
+//!
+//! A path is sampled at its hero wavelength (lane 0). `beta` is its throughput at each wavelength over the density of the
+//! hero, `r_u` the density of the same path at each wavelength, and `r_l` that of its last vertex found by light sampling,
+//! both relative to the hero's density: dividing by the mean of `r_u + r_l·p` over the lanes is the balance heuristic over
+//! wavelengths and strategies at once (Wilkie et al. 2014; Miller et al. 2019; names after pbrt-v4, sec. 14.2).
+//!
+//! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
+
+use crate::lights::{LightMix, LightSample};
+use crate::settings::Settings;
+use fog_core::colour::Observer;
+use fog_core::random::PathRng;
+use fog_core::spectrum::{Spectrum, Wavelengths};
+use fog_core::{Vec3A, math, warp};
+use fog_scene::camera::Ray;
+use fog_scene::medium::{MediumLanes, MediumView};
+use fog_scene::scene::{Scene, Surface};
+use fog_scene::Hit;
+
+/// Scatterings before Russian roulette may end a path.
+const ROULETTE_DEPTH: u32 = 3;
+/// Smallest probability of survival: bounds the weight of survivors.
+const ROULETTE_MIN: f32 = 0.05;
+
+/// A scene prepared for tracing paths.
+#[derive(Debug)]
+pub struct PathTracer<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) medium: Option<MediumView<'a>>,
+    pub(crate) observer: &'a Observer,
+    pub(crate) lights: LightMix,
+    pub(crate) settings: Settings,
+}
+
+/// What one path saw.
+#[derive(Clone, Copy, Debug)]
+pub struct PathRadiance {
+    /// Relative radiance at the path's wavelengths.
+    pub radiance: Spectrum,
+    /// True if the path's first event was a scattering in the fog.
+    pub airlight: bool,
+}
+
+/// State of a path between two events.
+struct Path {
+    origin: Vec3A,
+    direction: Vec3A,
+    beta: Spectrum,
+    r_u: Spectrum,
+    r_l: Spectrum,
+    /// Scatterings so far.
+    depth: u32,
+}
+
+/// What the wavelengths of a path need to be looked up.
+pub(crate) struct Lanes {
+    pub(crate) basis: [Spectrum; 3],
+    pub(crate) medium: Option<MediumLanes>,
+}
+
+/// What ends a flight.
+enum Event {
+    Surface(Hit),
+    Collision { t: f64, tau: f64 },
+    Escape,
+}
+
+impl<'a> PathTracer<'a> {
+    /// Prepares a scene.
+    #[must_use]
+    pub fn new(scene: &'a Scene, observer: &'a Observer, settings: Settings) -> Self {
+        let medium = scene.medium.as_ref().map(|m| m.view());
+        Self { scene, medium, observer, lights: LightMix::new(scene), settings }
+    }
+
+    /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.
+    #[must_use]
+    pub fn radiance(
+        &self,
+        ray: Ray,
+        wavelengths: &Wavelengths,
+        first_flight: f32,
+        rng: &mut PathRng,
+    ) -> PathRadiance {
+        let lanes = Lanes {
+            basis: self.observer.lane_basis(wavelengths),
+            medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
+        };
+        let mut path = Path {
+            origin: ray.origin,
+            direction: ray.direction,
+            beta: Spectrum::ONE,
+            r_u: Spectrum::ONE,
+            r_l: Spectrum::ZERO,
+            depth: 0,
+        };
+        let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false };
+        let mut u = f64::from(first_flight);
+        loop {
+            // Fly to the next collision in the fog, or to a surface before it.
+            let goes_on = match self.fly(&path, &lanes, u) {
+                Event::Escape => {
+                    self.pass(&mut path, &lanes, f64::INFINITY);
+                    out.radiance += self.escape(&path);
+                    false
+                }
+                Event::Surface(hit) => {
+                    self.pass(&mut path, &lanes, f64::from(hit.t));
+                    let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
+                    out.radiance += self.emitted(&path, &hit, &surface);
+                    self.may_scatter(&path) && {
+                        out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng);
+                        scatter_at_surface(&mut path, &surface, rng)
+                    }
+                }
+                Event::Collision { t, tau } => {
+                    out.airlight |= path.depth == 0;
+                    self.may_scatter(&path) && {
+                        let row = self.collide(&mut path, &lanes, t, tau, rng.uniform());
+                        out.radiance += self.lights_in_fog(&path, row, &lanes, rng);
+                        self.scatter_in_fog(&mut path, row, &lanes, rng);
+                        true
+                    }
+                }
+            };
+            if !goes_on || !survives_roulette(&mut path, rng) {
+                return out;
+            }
+            u = rng.uniform_f64();
+        }
+    }
+
+    /// Samples the free flight at the hero wavelength and looks for a surface before its end.
+    #[inline]
+    fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> Event {
+        let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
+            let tau = -math::f64::ln(1.0 - u);
+            let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
+            medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile).map(|t| (t, tau))
+        });
+        let t_max = collision.map_or(f32::INFINITY, |(t, _)| t as f32);
+        match (self.scene.intersect(path.origin, path.direction, t_max), collision) {
+            (Some(hit), _) => Event::Surface(hit),
+            (None, Some((t, tau))) => Event::Collision { t, tau },
+            (None, None) => Event::Escape,
+        }
+    }
+
+    /// Weights a flight of length `t` without collision: transmittance at each wavelength over the hero's.
+    #[inline]
+    fn pass(&self, path: &mut Path, lanes: &Lanes, t: f64) {
+        let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else { return };
+        if medium.grey && !self.lights.any() {
+            return;
+        }
+        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
+        let tau = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+        path.r_l *= math::fast_exp(tau[0]);
+        if !medium.grey {
+            let ratio = (tau - Spectrum::splat(tau[0])).exp_neg();
+            path.beta *= ratio;
+            path.r_u *= ratio;
+        }
+    }
+
+    /// Moves to a collision at distance `t`, where the hero has crossed `tau`; returns the phase function's row.
+    #[inline]
+    fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, u: f32) -> usize {
+        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
+        let y_hit = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        if !medium.grey {
+            let depth = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+            let sigma_t = medium.profile.sigma_t(y_hit, &lanes.profile);
+            let ratio = (depth - Spectrum::splat(tau as f32)).exp_neg() * sigma_t * (1.0 / sigma_t[0]);
+            path.beta *= ratio;
+            path.r_u *= ratio;
+        }
+        path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
+        path.origin += path.direction * t as f32;
+        medium.phase.row(medium.profile.zeta(y_hit), u)
+    }
+
+    /// Turns the path by the phase function of the hero.
+    #[inline]
+    fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) {
+        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("scattering needs fog");
+        let m = medium.phase.sample(row, &lanes.phase, rng.uniform_f64(), rng.uniform());
+        if !medium.grey || self.lights.any() {
+            let p = medium.phase.eval(row, m, &lanes.phase);
+            let inverse = 1.0 / p[0];
+            path.r_l = path.r_u * inverse;
+            if !medium.grey {
+                path.beta *= p * inverse;
+                path.r_u *= p * inverse;
+            }
+        }
+        let local = warp::spherical(1.0 - m, (m * (2.0 - m)).max(0.0).sqrt(), math::TAU_F32 * rng.uniform());
+        path.direction = (warp::frame(path.direction) * local).normalize();
+        path.depth += 1;
+    }
+
+    /// Light of the environment and the sun's disc that a path which leaves the scene meets.
+    fn escape(&self, path: &Path) -> Spectrum {
+        let mut sum = Spectrum::ZERO;
+        if let Some(environment) = &self.scene.environment {
+            sum += path.beta * (environment.radiance / path.r_u.mean());
+        }
+        if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
+            let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
+            sum += path.beta * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+        }
+        sum
+    }
+
+    /// Light that the surface itself emits towards the path.
+    fn emitted(&self, path: &Path, hit: &Hit, surface: &Surface) -> Spectrum {
+        if surface.emission.is_zero() {
+            return Spectrum::ZERO;
+        }
+        let cos = -surface.normal.dot(path.direction);
+        let area = self.scene.emitters().pdf_area(hit.triangle) * self.lights.emitter_probability();
+        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
+    }
+
+    /// False if another scattering would make the path longer than was asked for.
+    #[inline]
+    fn may_scatter(&self, path: &Path) -> bool {
+        self.settings.max_depth.is_none_or(|max| path.depth + 1 < max)
+    }
+
+    /// Next-event estimation from a point in the fog.
+    fn lights_in_fog(&self, path: &Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+        let Some(light) = self.lights.sample(self.scene, path.origin, &lanes.basis, rng) else {
+            return Spectrum::ZERO;
+        };
+        let (medium, in_medium) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("fog");
+        let m = 0.5 * (light.direction - path.direction).length_squared();
+        let p = medium.phase.eval(row, m, &in_medium.phase);
+        let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
+        let density = light.density(p * transmittance);
+        let sum = path.beta * p * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
+        self.unless_occluded(path.origin, &light, sum, rng)
+    }
+
+    /// Next-event estimation from a surface.
+    fn lights_at_surface(&self, path: &Path, s: &Surface, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+        let Some(bsdf) = &s.bsdf else { return Spectrum::ZERO };
+        let Some(light) = self.lights.sample(self.scene, s.point.position, &lanes.basis, rng) else {
+            return Spectrum::ZERO;
+        };
+        let to_local = s.world_from_shading.transpose();
+        let (value, pdf) = bsdf.eval(to_local * -path.direction, to_local * light.direction);
+        if pdf == 0.0 || s.normal.dot(light.direction) <= 0.0 {
+            return Spectrum::ZERO;
+        }
+        let origin = s.point.spawn_origin(light.direction);
+        let transmittance = self.transmittance(origin, light.direction, light.distance, lanes);
+        let density = light.density(transmittance * pdf);
+        let sum = path.beta * value * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
+        self.unless_occluded(origin, &light, sum, rng)
+    }
+
+    /// `sum` if nothing stands before the light; small sums are played for before the shadow ray is traced.
+    #[inline]
+    fn unless_occluded(
+        &self,
+        origin: Vec3A,
+        light: &LightSample,
+        sum: Spectrum,
+        rng: &mut PathRng,
+    ) -> Spectrum {
+        let largest = sum.max_lane();
+        if largest <= 0.0 {
+            return Spectrum::ZERO;
+        }
+        let keep = (largest * self.lights.shadow_scale()).min(1.0);
+        if keep < 1.0 && rng.uniform() >= keep {
+            return Spectrum::ZERO;
+        }
+        if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4)) {
+            return Spectrum::ZERO;
+        }
+        sum * (1.0 / keep)
+    }
+
+    /// Transmittance of the fog along a ray at all lanes.
+    #[inline]
+    fn transmittance(&self, origin: Vec3A, direction: Vec3A, distance: f32, lanes: &Lanes) -> Spectrum {
+        let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
+            return Spectrum::ONE;
+        };
+        let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
+        medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile).exp_neg()
+    }
+}
+
+/// Reflects the path at a surface; false if it ends there.
+fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
+    let Some(bsdf) = &surface.bsdf else { return false };
+    let wo = surface.world_from_shading.transpose() * -path.direction;
+    let Some(sample) = bsdf.sample(wo, rng.uniform(), rng.uniform2()) else { return false };
+    let direction = (surface.world_from_shading * sample.wi).normalize();
+    if direction.dot(surface.normal) <= 0.0 {
+        return false;
+    }
+    path.beta *= sample.weight;
+    path.r_l = path.r_u * (1.0 / sample.pdf);
+    path.origin = surface.point.spawn_origin(direction);
+    path.direction = direction;
+    path.depth += 1;
+    !path.beta.is_zero()
+}
+
+/// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
+#[inline]
+fn survives_roulette(path: &mut Path, rng: &mut PathRng) -> bool {
+    let mean = path.r_u.mean();
+    if path.depth > ROULETTE_DEPTH {
+        let survival = (path.beta.max_lane() / mean).max(ROULETTE_MIN);
+        if survival < 1.0 {
+            if rng.uniform() >= survival {
+                return false;
+            }
+            path.beta *= 1.0 / survival;
+        }
+    }
+    if !(1e-6..1e6).contains(&mean) {
+        let scale = 1.0 / mean;
+        path.beta *= scale;
+        path.r_u *= scale;
+        path.r_l *= scale;
+    }
+    true
+}

@@ -1,0 +1,58 @@
+//! Ground truth of pixel-centre rays: distances and the fog in front of them, computed and never sampled.
+
+use fog_core::math;
+use fog_film::Truth;
+use fog_scene::camera::Camera;
+use fog_scene::scene::Scene;
+use rayon::prelude::*;
+
+/// Wavelengths at which `transmittance.R`, `.G` and `.B` are given: the dominant wavelengths of the sRGB primaries, green
+/// rounded to 550 nm so that transmittance.G = exp(−tau).
+pub const TRANSMITTANCE_NM: [f64; 3] = [611.0, 550.0, 464.0];
+
+/// Wavelength of `tau` in nm.
+pub const TAU_NM: f64 = 550.0;
+
+/// Truth of one ray.
+struct Row {
+    depth: f32,
+    distance: f32,
+    transmittance: [f32; 3],
+    tau: f32,
+}
+
+/// Depth, distance, transmittance and optical depth of every pixel; of a monochromatic frame the transmittance is that of
+/// its wavelength.
+#[must_use]
+pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Truth {
+    let bands = wavelength_nm.map_or(TRANSMITTANCE_NM, |nm| [f64::from(nm); 3]);
+    let rows: Vec<Row> = (0..camera.width as usize * camera.height as usize)
+        .into_par_iter()
+        .map(|i| pixel_truth(scene, camera, i, bands))
+        .collect();
+    Truth {
+        depth_m: rows.iter().map(|r| r.depth).collect(),
+        distance_m: rows.iter().map(|r| r.distance).collect(),
+        transmittance: rows.iter().map(|r| r.transmittance).collect(),
+        tau: rows.iter().map(|r| r.tau).collect(),
+    }
+}
+
+fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row {
+    let (x, y) = (i % camera.width as usize, i / camera.width as usize);
+    let ray = camera.ray(x as f64 + 0.5, y as f64 + 0.5);
+    let hit = scene.intersect(ray.origin, ray.direction, f32::INFINITY);
+    let distance = hit.map_or(f32::INFINITY, |h| h.t);
+    let optical_depth = |nm: f64| {
+        scene.medium.as_ref().map_or(0.0, |medium| {
+            let (y0, dy) = (f64::from(ray.origin.y), f64::from(ray.direction.y));
+            medium.profile().optical_depth_at(y0, dy, f64::from(distance), nm)
+        })
+    };
+    Row {
+        depth: distance * ray.direction.dot(camera.pose.forward),
+        distance,
+        transmittance: bands.map(|nm| math::f64::exp(-optical_depth(nm)) as f32),
+        tau: optical_depth(TAU_NM) as f32,
+    }
+}

@@ -1,0 +1,66 @@
+//! What can go wrong on the main path, and whose fault it is.
+
+use std::path::PathBuf;
+
+/// An error of the main path; its `Display` is the message for the user.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The configuration is wrong.
+    #[error(transparent)]
+    Plan(#[from] fog_plan::PlanError),
+    /// A scene cannot be loaded.
+    #[error("{0}")]
+    Scene(String),
+    /// A fog cannot be made.
+    #[error("{0}")]
+    Fog(String),
+    /// The optics table cannot be built.
+    #[error(transparent)]
+    Optics(#[from] fog_optics::error::OpticsError),
+    /// A file named by the configuration cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// The data set cannot be read or written.
+    #[error(transparent)]
+    DataSet(#[from] fog_dataset::Error),
+    /// A pixel came out infinite or not a number.
+    #[error(transparent)]
+    Frame(#[from] fog_film::FrameError),
+    /// The renderer gave up inside (a bug): the frame failed, the program goes on.
+    #[error("internal error while rendering: {0}; please report it with the configuration")]
+    Panic(String),
+    /// `--frame` names none of the plan's frames.
+    #[error("the plan has no frame `{wanted}`; it has {count} frames, for example `{example}` (see `fogbank plan`)")]
+    UnknownFrame {
+        /// What was asked for.
+        wanted: String,
+        /// Number of frames in the plan.
+        count: usize,
+        /// Id of the first frame.
+        example: String,
+    },
+    /// A sweep where one frame was expected.
+    #[error("{name} is a sweep of {count} frames: name one with --frame ID (see `fogbank plan`), or use `fogbank sweep`")]
+    NotOneFrame {
+        /// Name of the configuration.
+        name: String,
+        /// Number of frames in the plan.
+        count: usize,
+    },
+    /// The caller asked to stop.
+    #[error("stopped on request")]
+    Cancelled,
+}
+
+impl Error {
+    /// True if the user's input or choice of folder is at fault, rather than the rendering of a frame.
+    #[must_use]
+    pub fn is_user_mistake(&self) -> bool {
+        !matches!(self, Self::Frame(_) | Self::Panic(_) | Self::Cancelled)
+    }
+}

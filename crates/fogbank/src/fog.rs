@@ -1,0 +1,139 @@
+//! The fog of a frame: where optics (droplets, tables) and scene (media) meet.
+
+use crate::error::Error;
+use crate::resources::Resources;
+use fog_optics::layer::{self, FogLayer};
+use fog_optics::state::FogState;
+use fog_optics::layer_csv;
+use fog_plan::{FogModel, FogSpec, Phase};
+use fog_scene::medium::Medium;
+use serde_json::{Value, json};
+
+/// A frame's fog: the medium that is traced, and what it is made of.
+#[derive(Clone, Debug)]
+pub struct Fog {
+    /// Extinction and phase function.
+    pub medium: Medium,
+    layer: FogLayer,
+    droplets: Option<Droplets>,
+    g: Option<f64>,
+    datum_m: f64,
+}
+
+/// What an advection layer's droplets are computed from.
+#[derive(Clone, Debug)]
+struct Droplets {
+    table: fog_core::optics_table::OpticsTable,
+    model: fog_optics::advection::AdvectionModel,
+    height_m: f64,
+    number_density_scale: f64,
+}
+
+impl Fog {
+    /// Fog of a specification; `None` for clear air.
+    ///
+    /// # Errors
+    /// If a layer file cannot be read or is wrong, or the visibility cannot be met.
+    pub fn new(spec: &FogSpec, resources: &Resources) -> Result<Option<Self>, Error> {
+        let Some((mut layer, mut droplets)) = layer_of(&spec.model, resources)? else { return Ok(None) };
+        if let Some(wanted) = spec.visibility {
+            let factor = layer.scale_for_mor(wanted.mor_m, wanted.altitude_m)?;
+            layer = layer.scaled(factor)?;
+            if let Some(droplets) = &mut droplets {
+                droplets.number_density_scale *= factor;
+            }
+        }
+        let (phase, g) = match spec.phase {
+            Phase::Hg(g) => (fog_scene::phase::Phase::HenyeyGreenstein { g: g as f32 }, Some(g)),
+            Phase::Mie => (fog_scene::phase::Phase::Table(resources.polydisperse()?.clone()), None),
+            Phase::MieMeanDiameter => {
+                let table = resources.mean_diameter()?;
+                let g = table.view().g[0];
+                (fog_scene::phase::Phase::Table(table.clone()), Some(g))
+            }
+        };
+        let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
+        Ok(Some(Self { medium, layer, droplets, g, datum_m: spec.datum_m }))
+    }
+
+    /// What the fog is at world height `y`: σ_t, albedo, g and visibility at 550 nm, and the droplets where the model has
+    /// them. A phase function that is not the droplets' own gives its own g.
+    ///
+    /// # Errors
+    /// None for a fog that could be made.
+    pub fn state(&self, y: f64) -> Result<FogState, Error> {
+        let altitude = y - self.datum_m;
+        let Some(d) = &self.droplets else { return Ok(FogState::grey(&self.layer, self.g, altitude)) };
+        let mut state =
+            FogState::advection(&d.table, &d.model, d.height_m, d.number_density_scale, altitude)?;
+        if state.g.is_some() && self.g.is_some() {
+            state.g = self.g;
+        }
+        Ok(state)
+    }
+
+    /// [`Fog::state`] as it is recorded.
+    pub(crate) fn state_json(&self, y: f64) -> Value {
+        let s = self.state(y).unwrap_or_default();
+        json!({
+            "altitude_m": y - self.datum_m,
+            "sigma_t_1_m": s.sigma_t_550_1_m,
+            "albedo": s.albedo,
+            "g": s.g,
+            "mor_m": s.mor_m,
+            "mor_contrast_threshold": 0.05,
+            "liquid_water_content_g_m3": s.liquid_water_content_g_m3,
+            "number_density_1_m3": s.number_density_1_m3,
+            "effective_radius_um": s.effective_radius_um,
+            "mean_diameter_um": s.mean_diameter_um,
+        })
+    }
+}
+
+/// The layer of a model, and its droplets where the model has them.
+fn layer_of(model: &FogModel, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
+    // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
+    let advection = |height_m: f64| -> Result<FogLayer, Error> {
+        Ok(layer::advection(resources.polydisperse()?, &resources.model, height_m, 1.0)?)
+    };
+    let layer = match model {
+        FogModel::None => return Ok(None),
+        FogModel::Advection { height_m, number_density_scale } => {
+            let (table, model) = (resources.polydisperse()?, &resources.model);
+            let layer = layer::advection(table, model, *height_m, *number_density_scale)?;
+            let droplets = Droplets {
+                table: table.clone(),
+                model: model.clone(),
+                height_m: *height_m,
+                number_density_scale: *number_density_scale,
+            };
+            return Ok(Some((layer, Some(droplets))));
+        }
+        FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
+            let sigma = sigma_t_1_m.map_or_else(|| Ok(advection(*height_m)?.mean_sigma_t()), Ok::<_, Error>)?;
+            layer::homogeneous(*height_m, sigma, *single_scattering_albedo)?
+        }
+        FogModel::LinearGradient {
+            height_m,
+            sigma_t_base_1_m,
+            sigma_t_top_1_m,
+            single_scattering_albedo,
+        } => {
+            let (base, top) = match (sigma_t_base_1_m, sigma_t_top_1_m) {
+                (Some(base), Some(top)) => (*base, *top),
+                (base, top) => {
+                    let [low, high] = advection(*height_m)?.min_max_sigma_t();
+                    (base.unwrap_or(low), top.unwrap_or(high))
+                }
+            };
+            layer::linear_gradient(*height_m, base, top, *single_scattering_albedo)?
+        }
+        FogModel::Layered { file, single_scattering_albedo } => {
+            let text = std::fs::read_to_string(file)
+                .map_err(|source| Error::Read { path: file.clone(), source })?;
+            let rows = layer_csv::parse_layers(&text, &file.display().to_string())?;
+            layer::layered(&rows, *single_scattering_albedo)?
+        }
+    };
+    Ok(Some((layer, None)))
+}

@@ -1,0 +1,70 @@
+//! One frame: specification → scene → picture and record.
+
+use crate::error::Error;
+use crate::fog::Fog;
+use crate::lighting::lights;
+use crate::record::record;
+use crate::resources::Resources;
+use fog_core::Vec3A;
+use fog_film::Frame;
+use fog_plan::{CameraSpec, FrameSpec, SensorSpec};
+use fog_scene::camera::{Camera, Pose};
+use fog_scene::scene::Scene;
+use fog_tracer::settings::Settings;
+
+/// A rendered frame and its record.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// Films and truth.
+    pub frame: Frame,
+    /// Everything about the frame, for `<id>.json`; deterministic.
+    pub record: serde_json::Value,
+    /// Camera of the frame.
+    pub camera: Camera,
+}
+
+/// Camera of a frame.
+#[must_use]
+pub fn camera(camera: &CameraSpec, sensor: &SensorSpec) -> Camera {
+    let [x, y, z] = camera.position_m.map(|v| v as f32);
+    let pose = Pose::new(Vec3A::new(x, y, z), camera.heading_deg, camera.pitch_deg, camera.roll_deg);
+    Camera::new(pose, sensor.width_px, sensor.height_px, sensor.horizontal_fov_deg)
+}
+
+/// Scene of a frame, with its fog.
+///
+/// # Errors
+/// If the scene or the fog cannot be had.
+pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<Fog>), Error> {
+    let loaded = resources.scene(spec.scene.as_ref().map(|s| s.file.as_path()))?;
+    let fog = Fog::new(&spec.fog, resources)?;
+    let (environment, sun) = lights(&spec.lighting);
+    let medium = fog.as_ref().map(|f| f.medium.clone());
+    Ok((Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters), fog))
+}
+
+/// Renders a frame on the current rayon pool. `progress` hears of traced paths and may stop the work.
+///
+/// # Errors
+/// If the scene or the fog cannot be had, a pixel is not finite, or `progress` asked to stop.
+pub fn render_frame(
+    spec: &FrameSpec,
+    resources: &Resources,
+    config_digest: &str,
+    progress: &(dyn Fn(u64) -> bool + Sync),
+) -> Result<Rendered, Error> {
+    let (scene, fog) = scene(spec, resources)?;
+    let camera = camera(&spec.camera, &spec.sensor);
+    let samples = u64::from(spec.render.samples);
+    let settings = Settings {
+        samples,
+        max_depth: spec.render.max_depth,
+        wavelength_nm: spec.render.wavelength_nm.map(|nm| nm as f32),
+    };
+    let paths = |pixels: u64| progress(pixels * samples);
+    let frame =
+        fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, &paths)?
+            .ok_or(Error::Cancelled)?;
+    let record = record(spec, fog.as_ref(), &camera, &frame, config_digest);
+    Ok(Rendered { frame, record, camera })
+}

@@ -1,0 +1,79 @@
+//! The metadata of a frame: everything that it depends on, and what its camera and fog were, with units in the keys.
+
+use crate::CODE_DIGEST;
+use crate::fog::Fog;
+use fog_film::{Channels, Frame};
+use fog_plan::FrameSpec;
+use fog_scene::camera::Camera;
+use fog_tracer::truth::{TAU_NM, TRANSMITTANCE_NM};
+use serde_json::{Value, json};
+
+/// Builds `<id>.json`. It holds no duration and no clock time: the same frame has the same record.
+pub(crate) fn record(
+    spec: &FrameSpec,
+    fog: Option<&Fog>,
+    camera: &Camera,
+    frame: &Frame,
+    config_digest: &str,
+) -> Value {
+    let mut value = json!(spec);
+    let layer = fog.map(|fog| {
+        let y = f64::from(camera.pose.position.y);
+        json!({
+            "wavelength_nm": TAU_NM,
+            "at_camera": fog.state_json(y),
+            "at_base": fog.state_json(fog.medium.profile().base_y()),
+            "at_top": fog.state_json(fog.medium.profile().top_y()),
+        })
+    });
+    value["fog_state"] = layer.unwrap_or(Value::Null);
+    value["camera"]["world_from_camera"] = pose_json(camera);
+    value["camera"]["quaternion_wxyz"] = quaternion_json(camera);
+    value["camera"]["axes"] = json!("OpenCV: x right, y down, z forward; world +Y up, metres");
+    value["sensor"]["intrinsics"] = intrinsics_json(camera);
+    value["sensor"]["encoding"] = json!("sRGB of exposure × linear radiance, clipped to [0, 1]");
+    value["conventions"] = json!({
+        "radiance": "relative to D65: a light of scalar radiance x is recorded as R = G = B = x",
+        "depth": "planar z along the camera axis, m; +inf for sky",
+        "distance": "range from the camera, m; +inf for sky",
+        "transmittance": "exp(-optical depth) of the pixel-centre ray to the first surface or out of the fog",
+        "transmittance_wavelengths_nm": match frame.channels {
+            Channels::Rgb => json!(TRANSMITTANCE_NM),
+            Channels::Mono { wavelength_nm } => json!([wavelength_nm]),
+        },
+        "tau_wavelength_nm": TAU_NM,
+        "image": "direct + airlight",
+    });
+    value["noise"] = json!({
+        "samples_per_pixel": frame.samples,
+        "relative_standard_error": frame.noise_estimate(),
+        "definition": "root mean square standard error of a pixel's luminance over the mean luminance",
+    });
+    value["config_digest"] = json!(config_digest);
+    value["code"] = json!({ "version": env!("CARGO_PKG_VERSION"), "digest": CODE_DIGEST });
+    value
+}
+
+/// 4×4 camera→world, row by row.
+fn pose_json(camera: &Camera) -> Value {
+    let m = camera.pose.world_from_camera();
+    json!((0..4).map(|r| m.row(r).to_array()).collect::<Vec<_>>())
+}
+
+fn quaternion_json(camera: &Camera) -> Value {
+    let q = fog_core::Quat::from_mat4(&camera.pose.world_from_camera());
+    json!([q.w, q.x, q.y, q.z])
+}
+
+/// Intrinsics in OpenCV's convention: pixel centres at integer coordinates.
+fn intrinsics_json(camera: &Camera) -> Value {
+    let f = camera.focal_px();
+    json!({
+        "fx_px": f,
+        "fy_px": f,
+        "cx_px": 0.5 * f64::from(camera.width) - 0.5,
+        "cy_px": 0.5 * f64::from(camera.height) - 0.5,
+        "convention": "OpenCV: pixel centres at integer coordinates",
+        "distortion": "none",
+    })
+}

@@ -1,0 +1,137 @@
+//! What frames share: the observer, the fog model, optics tables and loaded scenes, each made once.
+
+use crate::error::Error;
+use crate::progress::{Event, Progress};
+use crate::table_cache::TableCache;
+use fog_core::colour::Observer;
+use fog_core::optics_table::OpticsTable;
+use fog_optics::advection::AdvectionModel;
+use fog_optics::mean_diameter::mean_diameter_table;
+use fog_optics::table::{self, TableSettings};
+use fog_plan::{FogModel, FrameSpec, Phase};
+use fog_scene::{Limits, LoadedScene};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Wavelength of the single-droplet table (`phase: mie_mean_diameter`), in nm.
+const MEAN_DIAMETER_NM: f64 = 550.0;
+
+/// Tables and scenes by name. Fill it with [`Resources::prepare`] before frames are made from it.
+#[derive(Debug)]
+pub struct Resources {
+    cache: TableCache,
+    /// Colour matching and upsampling.
+    pub observer: Observer,
+    /// The droplet model.
+    pub model: AdvectionModel,
+    polydisperse: Option<OpticsTable>,
+    mean_diameter: Option<OpticsTable>,
+    scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
+    empty: Arc<LoadedScene>,
+}
+
+impl Resources {
+    /// Nothing loaded yet; tables will come from `cache`.
+    ///
+    /// # Errors
+    /// If the embedded fog model is invalid.
+    pub fn new(cache: TableCache) -> Result<Self, Error> {
+        Ok(Self {
+            cache,
+            observer: Observer::new(),
+            model: AdvectionModel::arcata()?,
+            polydisperse: None,
+            mean_diameter: None,
+            scenes: HashMap::new(),
+            empty: Arc::new(LoadedScene::default()),
+        })
+    }
+
+    /// Loads or builds what a frame needs and is not there yet. A scene that cannot be loaded is remembered and reported
+    /// by [`Resources::scene`], so that other frames can go on.
+    ///
+    /// # Errors
+    /// If a table cannot be built.
+    pub fn prepare(&mut self, spec: &FrameSpec, progress: &dyn Progress) -> Result<(), Error> {
+        if needs_polydisperse(spec) && self.polydisperse.is_none() {
+            let settings = TableSettings::visible(&self.model);
+            let fingerprint = settings.fingerprint_bytes(&self.model);
+            let started = Instant::now();
+            let (built, origin) = self.cache.open("polydisperse", &fingerprint, || {
+                let report = |fraction| {
+                    progress.event(Event::TableProgress(fraction));
+                };
+                Ok(table::build_table(&self.model, &settings, &report)?)
+            })?;
+            let seconds = started.elapsed().as_secs_f64();
+            progress.event(Event::Table { name: "polydisperse Mie", origin: &origin, seconds });
+            self.polydisperse = Some(built);
+        }
+        if spec.fog.phase == Phase::MieMeanDiameter && self.mean_diameter.is_none() {
+            self.mean_diameter = Some(mean_diameter_table(&self.model, MEAN_DIAMETER_NM)?);
+        }
+        if let Some(scene) = &spec.scene
+            && !self.scenes.contains_key(&scene.file)
+        {
+            let started = Instant::now();
+            let loaded = fog_scene::load(&scene.file, &Limits::default());
+            if let Ok(loaded) = &loaded {
+                progress.event(Event::Scene {
+                    path: &scene.file,
+                    triangles: loaded.geometry.triangles().len(),
+                    warnings: &loaded.warnings,
+                    seconds: started.elapsed().as_secs_f64(),
+                });
+            }
+            self.scenes.insert(scene.file.clone(), loaded.map(Arc::new).map_err(|e| e.to_string()));
+        }
+        Ok(())
+    }
+
+    /// The scene in `file`, or empty space.
+    ///
+    /// # Errors
+    /// Why it could not be loaded.
+    pub fn scene(&self, file: Option<&Path>) -> Result<Arc<LoadedScene>, Error> {
+        match file {
+            None => Ok(self.empty.clone()),
+            Some(file) => match self.scenes.get(file) {
+                Some(Ok(scene)) => Ok(scene.clone()),
+                Some(Err(reason)) => Err(Error::Scene(reason.clone())),
+                None => Err(Error::Scene(format!("{} was not prepared", file.display()))),
+            },
+        }
+    }
+
+    /// If scenes were asked for and none of them could be loaded, the reason of the first in the order of their names.
+    #[must_use]
+    pub fn no_scene_loads(&self) -> Option<String> {
+        let mut reasons: Vec<_> =
+            self.scenes.iter().map(|(path, scene)| Some((path, scene.as_ref().err()?))).collect::<Option<_>>()?;
+        reasons.sort();
+        reasons.first().map(|(_, reason)| (*reason).clone())
+    }
+
+    pub(crate) fn polydisperse(&self) -> Result<&OpticsTable, Error> {
+        self.polydisperse.as_ref().ok_or_else(|| Error::Fog("optics table was not prepared".to_owned()))
+    }
+
+    pub(crate) fn mean_diameter(&self) -> Result<&OpticsTable, Error> {
+        self.mean_diameter.as_ref().ok_or_else(|| Error::Fog("phase table was not prepared".to_owned()))
+    }
+}
+
+/// True if the frame's extinction or phase function comes from the polydisperse table.
+fn needs_polydisperse(spec: &FrameSpec) -> bool {
+    match &spec.fog.model {
+        FogModel::None => false,
+        FogModel::Advection { .. } => true,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none() || spec.fog.phase == Phase::Mie,
+        FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none() || spec.fog.phase == Phase::Mie
+        }
+        FogModel::Layered { .. } => spec.fog.phase == Phase::Mie,
+    }
+}

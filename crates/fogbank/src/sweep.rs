@@ -1,0 +1,182 @@
+//! All frames of a plan, or some of them, into a data set.
+
+use crate::error::Error;
+use crate::frame::{Rendered, render_frame};
+use crate::progress::{Event, Progress};
+use crate::resources::Resources;
+use crate::{CODE_DIGEST, frame};
+use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
+use fog_plan::{FrameSpec, Plan};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::time::Instant;
+
+/// Which of a plan's frames are to be rendered.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Selection {
+    /// All of them.
+    #[default]
+    All,
+    /// The one with this id, index, or unambiguous beginning of an id.
+    One(String),
+}
+
+impl Selection {
+    /// Indices of the selected frames.
+    fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
+        let Self::One(wanted) = self else { return Ok((0..frames.len()).collect()) };
+        let exact = frames.iter().position(|f| f.id == *wanted);
+        let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());
+        let by_prefix = || {
+            let mut matches = (0..frames.len()).filter(|&i| frames[i].id.starts_with(wanted.as_str()));
+            matches.next().filter(|_| matches.next().is_none())
+        };
+        exact.or_else(by_index).or_else(by_prefix).map(|i| vec![i]).ok_or_else(|| Error::UnknownFrame {
+            wanted: wanted.clone(),
+            count: frames.len(),
+            example: frames[0].id.clone(),
+        })
+    }
+}
+
+/// Renders what is missing of the selected frames into the data set in `dir`, on the current rayon pool.
+///
+/// A frame that fails is recorded with its reason and the others go on: look at the returned counts.
+///
+/// # Errors
+/// If nothing can be rendered at all (scene, fog, optics table), if `dir` cannot be used or holds another data set, or if
+/// `progress` asked to stop.
+pub fn sweep(
+    plan: &Plan,
+    selection: &Selection,
+    dir: &Path,
+    resources: &mut Resources,
+    progress: &dyn Progress,
+) -> Result<Counts, Error> {
+    // 1. The frames, and what they need.
+    let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
+    let selected = selection.indices(&frames)?;
+    for &i in &selected {
+        resources.prepare(&frames[i], progress)?;
+    }
+    if let Some(reason) = resources.no_scene_loads() {
+        return Err(Error::Scene(reason));
+    }
+    for &i in &selected {
+        if let Err(e @ (Error::Fog(_) | Error::Read { .. })) = frame::scene(&frames[i], resources) {
+            return Err(e);
+        }
+    }
+
+    // 2. The data set: new, or the same one begun earlier.
+    let data_set = open(plan, &frames, dir)?;
+    let todo: Vec<&FrameSpec> =
+        selected.iter().map(|&i| &frames[i]).filter(|f| !data_set.is_done(&f.id)).collect();
+    let paths = todo.iter().map(|f| path_count(f)).sum();
+    progress.event(Event::Ready { done: selected.len() - todo.len(), paths, todo: todo.len() });
+
+    // 3. Each missing frame: render, store, or record why not.
+    let config_digest = plan.config_digest();
+    for spec in todo {
+        if !progress.event(Event::FrameStarted { id: &spec.id }) {
+            return Err(Error::Cancelled);
+        }
+        let started = Instant::now();
+        let on_paths = |n: u64| progress.event(Event::Paths(n));
+        let rendered = guarded(|| render_frame(spec, resources, &config_digest, &on_paths));
+        let stored = rendered.and_then(|r| store(&data_set, spec, &r, started).map(|()| r.frame.noise_estimate()));
+        match stored {
+            Ok(noise) => {
+                let seconds = started.elapsed().as_secs_f64();
+                progress.event(Event::FrameDone { id: &spec.id, seconds, noise });
+            }
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(e) => {
+                let reason = e.to_string();
+                progress.event(Event::FrameFailed { id: &spec.id, reason: &reason, paths: path_count(spec) });
+                // If even this cannot be written, the folder is of no use any more.
+                data_set.record_failure(&spec.id, &reason)?;
+            }
+        }
+    }
+
+    // 4. The index, from what is there.
+    let counts = data_set.finish()?;
+    progress.event(Event::Finished { counts });
+    Ok(counts)
+}
+
+/// Number of paths that a frame takes.
+#[must_use]
+pub fn path_count(spec: &FrameSpec) -> u64 {
+    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(spec.render.samples)
+}
+
+/// The outputs of a frame as the data set knows them.
+#[must_use]
+pub fn output_set(spec: &FrameSpec) -> OutputSet {
+    let names: Vec<String> =
+        spec.outputs.iter().filter_map(|o| Some(json!(o).as_str()?.to_owned())).collect();
+    OutputSet::from_names(names).unwrap_or_default()
+}
+
+fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error> {
+    let plan_frames = frames
+        .iter()
+        .map(|f| PlanFrame {
+            id: f.id.clone(),
+            pair_id: Some(f.pair_id.clone()),
+            axes: f.axes.iter().cloned().collect(),
+            outputs: output_set(f),
+            spec: json!(f),
+        })
+        .collect();
+    let details = json!({
+        "generator": "Fogbank",
+        "version": env!("CARGO_PKG_VERSION"),
+        "axes": plan.axes().iter().map(|a| a.path.clone()).collect::<Vec<_>>(),
+        "mode": plan.mode(),
+    });
+    let config_yaml = plan.resolved_yaml();
+    let info = DataSetInfo {
+        name: plan.name(),
+        config_yaml: &config_yaml,
+        config_digest: &plan.config_digest(),
+        code_digest: CODE_DIGEST,
+        plan: plan_frames,
+        details: &details,
+    };
+    let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
+    Ok(DataSet::create_or_open(dir, info, &differ)?)
+}
+
+fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, started: Instant) -> Result<(), Error> {
+    let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
+    let attributes = BTreeMap::from([
+        ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
+        ("focal_px".to_owned(), Attribute::Number(rendered.camera.focal_px() as f32)),
+        ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
+    ]);
+    data_set.write_frame(&FrameFiles {
+        id: &spec.id,
+        frame: &rendered.frame,
+        record: &rendered.record,
+        exposure: spec.sensor.exposure as f32,
+        seconds: started.elapsed().as_secs_f64(),
+        attributes: &attributes,
+    })?;
+    Ok(())
+}
+
+/// Runs the renderer so that a panic in it costs one frame and not the sweep.
+fn guarded<T>(f: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    catch_unwind(AssertUnwindSafe(f)).unwrap_or_else(|payload| {
+        let text = payload
+            .downcast_ref::<String>()
+            .cloned()
+            .or_else(|| payload.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+        Err(Error::Panic(text.unwrap_or_else(|| "unknown panic".to_owned())))
+    })
+}

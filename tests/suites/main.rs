@@ -1,0 +1,8 @@
+//! The slow suites, one program: statistical tests of every sampler, and renderings against independent references.
+
+mod analog;
+mod furnace;
+mod radiances;
+mod samplers;
+mod street;
+mod truth;

@@ -1,0 +1,223 @@
+//! Every sampler against its density, by chi-square.
+
+use fog_core::colour::Observer;
+use fog_core::profile::ExtinctionProfile;
+use fog_core::random::PathRng;
+use fog_core::spectrum::{LaneWeights, Spectrum, Wavelengths};
+use fog_core::{Vec3A, math, phase_grid};
+use fog_optics::advection::AdvectionModel;
+use fog_scene::bsdf::Bsdf;
+use fog_scene::SurfaceParameters;
+use fog_scene::phase::{Phase, PhaseNodes};
+use fog_tests::chi_square::assert_follows;
+
+const SAMPLES: u64 = 1_000_000;
+
+#[test]
+fn phase_functions() {
+    let model = AdvectionModel::arcata().unwrap();
+    let mean_diameter = fog_optics::mean_diameter::mean_diameter_table(&model, 550.0).unwrap();
+    let mut phases: Vec<(String, Phase)> = [0.0, 1e-7, 0.3, 0.83, 0.97, -0.4]
+        .iter()
+        .map(|&g| (format!("Henyey-Greenstein {g}"), Phase::HenyeyGreenstein { g }))
+        .collect();
+    phases.push(("Mie of the mean diameter".to_owned(), Phase::Table(mean_diameter)));
+    phases.push(("two wavelengths and altitudes".to_owned(), Phase::Table(fog_tests::scenes::small_table())));
+    let store = PhaseNodes::default();
+    let nodes = phase_grid::nodes();
+    for (name, phase) in &phases {
+        let view = phase.view(&store);
+        let lanes = view.lanes(&Wavelengths::monochromatic(520.0));
+        // Cells of about equal probability, cut at nodes; the density is linear between nodes or nearly so.
+        let p = |m: f64| f64::from(view.eval(0, m as f32, &lanes)[0]);
+        let (mut edges, mut expected, mut mass) = (vec![0.0], Vec::new(), 0.0);
+        for i in 0..nodes.len() - 1 {
+            // Simpson on 8 pieces of the interval
+            let (a, h) = (nodes[i], (nodes[i + 1] - nodes[i]) / 8.0);
+            for k in 0..8 {
+                let x = a + h * f64::from(k);
+                mass += math::TAU * h / 6.0 * (p(x) + 4.0 * p(x + 0.5 * h) + p(x + h));
+            }
+            if mass > 0.01 || i + 2 == nodes.len() {
+                edges.push(nodes[i + 1]);
+                expected.push(mass * SAMPLES as f64);
+                mass = 0.0;
+            }
+        }
+        let total: f64 = expected.iter().sum::<f64>() / SAMPLES as f64;
+        assert!((total - 1.0).abs() < 1e-4, "{name} integrates to {total}");
+        let mut observed = vec![0u64; expected.len()];
+        let mut rng = PathRng::new(11, 0, 0);
+        for _ in 0..SAMPLES {
+            let m = view.sample(0, &lanes, rng.uniform_f64(), rng.uniform());
+            let cell = edges.partition_point(|&e| e <= f64::from(m)).clamp(1, expected.len()) - 1;
+            observed[cell] += 1;
+        }
+        assert_follows(name, &observed, &expected, phases.len());
+    }
+}
+
+#[test]
+fn reflection() {
+    let dielectric = |roughness| SurfaceParameters {
+        base_color: [0.6, 0.3, 0.1],
+        metallic: 0.0,
+        roughness,
+        f0: [0.04; 3],
+        f90: 1.0,
+        ior: 1.5,
+        emission: [0.0; 3],
+        double_sided: false,
+    };
+    let lambert = SurfaceParameters { f0: [0.0; 3], f90: 0.0, ..dielectric(1.0) };
+    let metal = |roughness| SurfaceParameters { metallic: 1.0, ..dielectric(roughness) };
+    let materials = [lambert, dielectric(0.3), dielectric(0.8), metal(0.4), metal(1.0)];
+    let cosines = [0.05f32, 0.5, 0.99];
+    const ROWS: usize = 24;
+    const COLUMNS: usize = 24;
+    for (k, material) in materials.iter().enumerate() {
+        let bsdf = Bsdf::new(material, &[Spectrum::ONE * (1.0 / 3.0); 3]);
+        for cos in cosines {
+            let wo = Vec3A::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+            let cell = |w: Vec3A| {
+                let row = ((w.z * ROWS as f32) as usize).min(ROWS - 1);
+                let turn = math::f32::atan2(w.y, w.x) / math::TAU_F32 + 0.5;
+                row * COLUMNS + ((turn * COLUMNS as f32) as usize).min(COLUMNS - 1)
+            };
+            // Midpoint quadrature of the density over fine sub-cells, plus one cell for samples that reflect nothing.
+            const FINE: usize = 40;
+            let mut expected = vec![0.0; ROWS * COLUMNS + 1];
+            let step = 1.0 / (ROWS * FINE) as f64 * math::TAU / (COLUMNS * FINE) as f64;
+            for i in 0..ROWS * FINE {
+                let z = (i as f32 + 0.5) / (ROWS * FINE) as f32;
+                for j in 0..COLUMNS * FINE {
+                    let phi = ((j as f32 + 0.5) / (COLUMNS * FINE) as f32 - 0.5) * math::TAU_F32;
+                    let w = fog_core::warp::spherical(z, (1.0 - z * z).sqrt(), phi);
+                    expected[cell(w)] += f64::from(bsdf.eval(wo, w).1) * step * SAMPLES as f64;
+                }
+            }
+            let inside: f64 = expected.iter().sum();
+            assert!(inside <= 1.002 * SAMPLES as f64, "density integrates to more than 1: {inside}");
+            expected[ROWS * COLUMNS] = (SAMPLES as f64 - inside).max(0.0);
+            let mut observed = vec![0u64; expected.len()];
+            let mut rng = PathRng::new(17, k as u64, 0);
+            for _ in 0..SAMPLES {
+                let sample = bsdf.sample(wo, rng.uniform(), rng.uniform2());
+                observed[sample.map_or(ROWS * COLUMNS, |s| cell(s.wi))] += 1;
+            }
+            if expected[ROWS * COLUMNS] < 1000.0 {
+                // What is left over here is the quadrature's error: leave the cell out.
+                expected.truncate(ROWS * COLUMNS);
+                observed.truncate(ROWS * COLUMNS);
+            }
+            assert_follows(&format!("material {k}, cos {cos}"), &observed, &expected, 15);
+        }
+    }
+}
+
+#[test]
+fn reflection_is_reciprocal_and_conserves_energy() {
+    let mut rng = PathRng::new(23, 0, 0);
+    for _ in 0..2000 {
+        let [metallic, roughness] = rng.uniform2();
+        let material = SurfaceParameters {
+            base_color: [rng.uniform(), rng.uniform(), rng.uniform()],
+            metallic,
+            roughness: 0.05 + 0.95 * roughness,
+            f0: [0.2 * rng.uniform(); 3],
+            f90: 1.0,
+            ior: 1.5,
+            emission: [0.0; 3],
+            double_sided: false,
+        };
+        let bsdf = Bsdf::new(&material, &[Spectrum::ONE * (1.0 / 3.0); 3]);
+        let up = |rng: &mut PathRng| {
+            let w = fog_core::warp::uniform_sphere(rng.uniform2());
+            Vec3A::new(w.x, w.y, w.z.abs().max(0.01)).normalize()
+        };
+        let (a, b) = (up(&mut rng), up(&mut rng));
+        let (ab, ba) = (bsdf.eval(a, b).0[0] / b.z, bsdf.eval(b, a).0[0] / a.z);
+        assert!((ab - ba).abs() <= 2e-4 * (ab + ba), "{ab} {ba} for {material:?}");
+    }
+    for roughness in [0.1, 0.5, 1.0] {
+        for metallic in [0.0, 1.0] {
+            let material = SurfaceParameters {
+                base_color: [1.0; 3],
+                metallic,
+                roughness,
+                f0: [0.04; 3],
+                f90: 1.0,
+                ior: 1.5,
+                emission: [0.0; 3],
+                double_sided: false,
+            };
+            let bsdf = Bsdf::new(&material, &[Spectrum::ONE * (1.0 / 3.0); 3]);
+            for cos in [0.1f32, 0.6, 1.0] {
+                let wo = Vec3A::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                let n = 200_000;
+                let albedo = (0..n)
+                    .filter_map(|_| bsdf.sample(wo, rng.uniform(), rng.uniform2()))
+                    .map(|s| f64::from(s.weight[0]))
+                    .sum::<f64>()
+                    / f64::from(n);
+                assert!((0.3..=1.005).contains(&albedo), "albedo {albedo} at {roughness} {metallic} {cos}");
+            }
+        }
+    }
+}
+
+#[test]
+fn free_flights() {
+    let z = vec![0.0, 10.0, 40.0, 90.0, 100.0];
+    let sigma = vec![0.01, 0.05, 0.0, 0.08, 0.02];
+    let profile = ExtinctionProfile::new(0.0, z, vec![550.0], sigma, vec![1.0; 5]).unwrap();
+    let lanes = LaneWeights::new(&[550.0], &Wavelengths::monochromatic(550.0));
+    let rays = [(5.0, 0.4), (95.0, -0.7), (50.0, 0.0), (5.0, 1e-6), (-20.0, 0.9)];
+    for (y0, dy) in rays {
+        let length = profile.clip(y0, dy, 500.0).unwrap().exit;
+        const CELLS: usize = 60;
+        let survive = |k: usize| {
+            math::f64::exp(-profile.optical_depth_at(y0, dy, length * k as f64 / CELLS as f64, 550.0))
+        };
+        let mut expected: Vec<f64> =
+            (0..CELLS).map(|k| (survive(k) - survive(k + 1)) * SAMPLES as f64).collect();
+        expected.push(survive(CELLS) * SAMPLES as f64);
+        let mut observed = vec![0u64; CELLS + 1];
+        let mut rng = PathRng::new(31, 0, 0);
+        for _ in 0..SAMPLES {
+            let tau = -math::f64::ln(1.0 - rng.uniform_f64());
+            let cell = match profile.free_flight(y0, dy, length, tau, &lanes) {
+                Some(t) => ((t / length * CELLS as f64) as usize).min(CELLS - 1),
+                None => CELLS,
+            };
+            observed[cell] += 1;
+        }
+        assert_follows(&format!("flight from {y0} at {dy}"), &observed, &expected, rays.len());
+    }
+}
+
+#[test]
+fn wavelengths() {
+    let observer = Observer::new();
+    const CELLS: usize = 100;
+    let edge = |k: usize| 380.0 + 400.0 * k as f32 / CELLS as f32;
+    let expected: Vec<f64> = (0..CELLS)
+        .map(|k| {
+            let n = 64;
+            let h = 4.0 / n as f32;
+            (0..n)
+                .map(|i| f64::from(observer.wavelength_pdf(edge(k) + h * (i as f32 + 0.5)) * h))
+                .sum::<f64>()
+                * SAMPLES as f64
+        })
+        .collect();
+    let mut rng = PathRng::new(41, 0, 0);
+    for lane in [0, 3, 7] {
+        let mut observed = vec![0u64; CELLS];
+        for _ in 0..SAMPLES {
+            let nm = observer.sample_wavelengths(rng.uniform()).nm[lane];
+            observed[(((nm - 380.0) / 400.0 * CELLS as f32) as usize).min(CELLS - 1)] += 1;
+        }
+        assert_follows(&format!("wavelength lane {lane}"), &observed, &expected, 3);
+    }
+}
