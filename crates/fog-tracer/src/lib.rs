@@ -5,6 +5,7 @@
 
 mod analog;
 mod lights;
+mod lobe;
 pub mod path;
 pub mod render;
 pub mod settings;

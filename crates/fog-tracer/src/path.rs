@@ -8,11 +8,12 @@
 //! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
 
 use crate::lights::{LightMix, LightSample};
+use crate::lobe::FogLobe;
 use crate::settings::Settings;
 use fog_core::colour::Observer;
 use fog_core::random::PathRng;
-use fog_core::spectrum::{Spectrum, Wavelengths};
-use fog_core::{Vec3A, math, warp};
+use fog_core::spectrum::{LaneWeights, Spectrum, Wavelengths};
+use fog_core::{Vec3A, math};
 use fog_scene::camera::Ray;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::scene::{Scene, Surface};
@@ -31,6 +32,8 @@ pub struct PathTracer<'a> {
     pub(crate) observer: &'a Observer,
     pub(crate) lights: LightMix,
     pub(crate) settings: Settings,
+    /// One wavelength that every path uses where its choices must not depend on its own.
+    reference_lanes: LaneWeights,
 }
 
 /// What one path saw.
@@ -71,7 +74,10 @@ impl<'a> PathTracer<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, observer: &'a Observer, settings: Settings) -> Self {
         let medium = scene.medium.as_ref().map(|m| m.view());
-        Self { scene, medium, observer, lights: LightMix::new(scene), settings }
+        let all = Wavelengths::monochromatic(550.0);
+        let rows = medium.as_ref().map_or(&[550.0][..], |m| m.profile.wavelengths_nm());
+        let reference_lanes = LaneWeights::new(rows, &all);
+        Self { scene, medium, observer, lights: LightMix::new(scene), settings, reference_lanes }
     }
 
     /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.
@@ -118,8 +124,8 @@ impl<'a> PathTracer<'a> {
                     out.airlight |= path.depth == 0;
                     self.may_scatter(&path) && {
                         let row = self.collide(&mut path, &lanes, t, tau, rng.uniform());
-                        out.radiance += self.lights_in_fog(&path, row, &lanes, rng);
-                        self.scatter_in_fog(&mut path, row, &lanes, rng);
+                        let sum = self.scatter_in_fog(&mut path, row, &lanes, rng);
+                        out.radiance += sum;
                         true
                     }
                 }
@@ -182,23 +188,28 @@ impl<'a> PathTracer<'a> {
         medium.phase.row(medium.profile.zeta(y_hit), u)
     }
 
-    /// Turns the path by the phase function of the hero.
+    /// Connects a collision to the lights, then turns the path by the phase function of the hero; returns the light.
     #[inline]
-    fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) {
-        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("scattering needs fog");
-        let m = medium.phase.sample(row, &lanes.phase, rng.uniform_f64(), rng.uniform());
+    fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+        let (medium, in_medium) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let sun = self.scene.sun.map(|sun| {
+            let (y, dy) = (f64::from(path.origin.y), f64::from(sun.direction.y));
+            let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, &self.reference_lanes);
+            (sun.direction, math::fast_exp(-tau[0]))
+        });
+        let lobe = FogLobe::new(&medium.phase, &in_medium.phase, row, path.direction, sun);
+        let sum = self.lights_in_fog(path, &lobe, lanes, rng);
+
+        let (direction, value) = lobe.sample(rng);
         if !medium.grey || self.lights.any() {
-            let p = medium.phase.eval(row, m, &lanes.phase);
-            let inverse = 1.0 / p[0];
+            let inverse = 1.0 / value.density[0];
             path.r_l = path.r_u * inverse;
-            if !medium.grey {
-                path.beta *= p * inverse;
-                path.r_u *= p * inverse;
-            }
+            path.r_u *= value.density * inverse;
+            path.beta *= value.phase * inverse;
         }
-        let local = warp::spherical(1.0 - m, (m * (2.0 - m)).max(0.0).sqrt(), math::TAU_F32 * rng.uniform());
-        path.direction = (warp::frame(path.direction) * local).normalize();
+        path.direction = direction;
         path.depth += 1;
+        sum
     }
 
     /// Light of the environment and the sun's disc that a path which leaves the scene meets.
@@ -232,16 +243,15 @@ impl<'a> PathTracer<'a> {
     }
 
     /// Next-event estimation from a point in the fog.
-    fn lights_in_fog(&self, path: &Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+    fn lights_in_fog(&self, path: &Path, lobe: &FogLobe<'_>, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
         let Some(light) = self.lights.sample(self.scene, path.origin, &lanes.basis, rng) else {
             return Spectrum::ZERO;
         };
-        let (medium, in_medium) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("fog");
-        let m = 0.5 * (light.direction - path.direction).length_squared();
-        let p = medium.phase.eval(row, m, &in_medium.phase);
+        let value = lobe.value(light.direction);
         let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
-        let density = light.density(p * transmittance);
-        let sum = path.beta * p * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
+        let density = light.density(value.density * transmittance);
+        let sum =
+            path.beta * value.phase * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
         self.unless_occluded(path.origin, &light, sum, rng)
     }
 

@@ -105,15 +105,6 @@ impl Resources {
         }
     }
 
-    /// If scenes were asked for and none of them could be loaded, the reason of the first in the order of their names.
-    #[must_use]
-    pub fn no_scene_loads(&self) -> Option<String> {
-        let mut reasons: Vec<_> =
-            self.scenes.iter().map(|(path, scene)| Some((path, scene.as_ref().err()?))).collect::<Option<_>>()?;
-        reasons.sort();
-        reasons.first().map(|(_, reason)| (*reason).clone())
-    }
-
     pub(crate) fn polydisperse(&self) -> Result<&OpticsTable, Error> {
         self.polydisperse.as_ref().ok_or_else(|| Error::Fog("optics table was not prepared".to_owned()))
     }

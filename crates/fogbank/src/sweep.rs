@@ -61,13 +61,19 @@ pub fn sweep(
     for &i in &selected {
         resources.prepare(&frames[i], progress)?;
     }
-    if let Some(reason) = resources.no_scene_loads() {
-        return Err(Error::Scene(reason));
-    }
+    // If not one of them can be put together, that is the configuration's fault and not a frame's.
+    let mut refused = None;
     for &i in &selected {
-        if let Err(e @ (Error::Fog(_) | Error::Read { .. })) = frame::scene(&frames[i], resources) {
-            return Err(e);
+        match frame::scene(&frames[i], resources) {
+            Ok(_) => {
+                refused = None;
+                break;
+            }
+            Err(e) => refused = refused.or(Some(e)),
         }
+    }
+    if let Some(e) = refused {
+        return Err(e);
     }
 
     // 2. The data set: new, or the same one begun earlier.

@@ -1,0 +1,80 @@
+//! Directions after a scattering in the fog.
+//!
+//! Half of what a droplet scatters stays within a degree of forward, so light of the sun reaches a path mostly where the
+//! path happens to point almost at the sun: rare, and bright when it happens. Where the sun's beam is still strong, a share
+//! of the directions is therefore drawn from the phase function *around the sun* instead of around the path; both are one
+//! mixture density, which bounds what a connection to the sun at the next vertex can weigh.
+
+use fog_core::random::PathRng;
+use fog_core::spectrum::{LaneWeights, Spectrum};
+use fog_core::{Vec3A, math, warp};
+use fog_scene::phase::PhaseView;
+
+/// Share of directions drawn around the sun where its beam is unattenuated.
+const SUN_SHARE: f32 = 0.25;
+
+/// The mixture of one scattering.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FogLobe<'a> {
+    phase: &'a PhaseView<'a>,
+    lanes: &'a LaneWeights,
+    row: usize,
+    before: Vec3A,
+    sun: Vec3A,
+    sun_share: f32,
+}
+
+/// Phase function and sampling density of one direction, in 1/sr at all lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LobeValue {
+    pub(crate) phase: Spectrum,
+    pub(crate) density: Spectrum,
+}
+
+impl<'a> FogLobe<'a> {
+    /// Scattering of a path that travelled along `before`, by row `row` of the phase function. `sun` is the direction to
+    /// the sun and its beam's transmittance to here, which must not depend on the path's wavelengths.
+    #[inline]
+    pub(crate) fn new(
+        phase: &'a PhaseView<'a>,
+        lanes: &'a LaneWeights,
+        row: usize,
+        before: Vec3A,
+        sun: Option<(Vec3A, f32)>,
+    ) -> Self {
+        let (sun, transmittance) = sun.unwrap_or((before, 0.0));
+        Self { phase, lanes, row, before, sun, sun_share: SUN_SHARE * transmittance }
+    }
+
+    /// Value and density for a direction of travel after the scattering.
+    #[inline]
+    pub(crate) fn value(&self, after: Vec3A) -> LobeValue {
+        self.mix(self.at(0.5 * (after - self.before).length_squared()), after)
+    }
+
+    #[inline]
+    fn at(&self, m: f32) -> Spectrum {
+        self.phase.eval(self.row, m, self.lanes)
+    }
+
+    #[inline]
+    fn mix(&self, phase: Spectrum, after: Vec3A) -> LobeValue {
+        if self.sun_share == 0.0 {
+            return LobeValue { phase, density: phase };
+        }
+        let around_sun = self.at(0.5 * (after - self.sun).length_squared());
+        LobeValue { phase, density: phase * (1.0 - self.sun_share) + around_sun * self.sun_share }
+    }
+
+    /// Draws a direction at the hero's wavelength.
+    #[inline]
+    pub(crate) fn sample(&self, rng: &mut PathRng) -> (Vec3A, LobeValue) {
+        let towards_sun = self.sun_share > 0.0 && rng.uniform() < self.sun_share;
+        let axis = if towards_sun { self.sun } else { self.before };
+        let m = self.phase.sample(self.row, self.lanes, rng.uniform_f64(), rng.uniform());
+        let local = warp::spherical(1.0 - m, (m * (2.0 - m)).max(0.0).sqrt(), math::TAU_F32 * rng.uniform());
+        let after = (warp::frame(axis) * local).normalize();
+        let value = if towards_sun { self.value(after) } else { self.mix(self.at(m), after) };
+        (after, value)
+    }
+}
