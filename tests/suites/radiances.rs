@@ -20,7 +20,7 @@ use rayon::prelude::*;
 /// Directions closer than this to the beam's own are left out.
 const BEAM_DEG: f64 = 2.0;
 /// Paths per direction.
-const PATHS: u64 = 100_000;
+const PATHS: u64 = 400_000;
 
 /// Light that travels with this direction cosine to the vertical and azimuth from the beam's own (which is −Z).
 fn travel(mu: f64, phi_deg: f64) -> Vec3A {

@@ -22,7 +22,7 @@ use fog_scene::Hit;
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
 /// Smallest probability of survival: bounds the weight of survivors.
-const ROULETTE_MIN: f32 = 0.05;
+const ROULETTE_MIN: f32 = 0.5;
 
 /// A scene prepared for tracing paths.
 #[derive(Debug)]
