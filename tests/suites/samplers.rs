@@ -3,7 +3,7 @@
 use fog_core::colour::Observer;
 use fog_core::profile::ExtinctionProfile;
 use fog_core::random::PathRng;
-use fog_core::spectrum::{LaneWeights, Spectrum, Wavelengths};
+use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math, phase_grid};
 use fog_optics::advection::AdvectionModel;
 use fog_scene::bsdf::Bsdf;
@@ -171,7 +171,7 @@ fn free_flights() {
     let z = vec![0.0, 10.0, 40.0, 90.0, 100.0];
     let sigma = vec![0.01, 0.05, 0.0, 0.08, 0.02];
     let profile = ExtinctionProfile::new(0.0, z, vec![550.0], sigma, vec![1.0; 5]).unwrap();
-    let lanes = LaneWeights::new(&[550.0], &Wavelengths::monochromatic(550.0));
+    let lanes = profile.lanes(&Wavelengths::monochromatic(550.0));
     let rays = [(5.0, 0.4), (95.0, -0.7), (50.0, 0.0), (5.0, 1e-6), (-20.0, 0.9)];
     for (y0, dy) in rays {
         let length = profile.clip(y0, dy, 500.0).unwrap().exit;

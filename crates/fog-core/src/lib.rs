@@ -13,6 +13,7 @@ pub mod optics_table;
 pub mod phase_grid;
 pub mod profile;
 pub mod random;
+mod separable;
 pub mod spectrum;
 pub mod warp;
 

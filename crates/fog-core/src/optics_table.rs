@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Entries of the guide table that starts a phase function's inversion.
 pub const GUIDE: usize = 256;
+/// Most wavelengths of a table.
+pub const MAX_COLUMNS: usize = 64;
 const MAGIC: u64 = u64::from_le_bytes(*b"fogoptic");
 const VERSION: u64 = 1;
 const HEADER: usize = 8;
@@ -160,7 +162,7 @@ impl OpticsTable {
             return Err(OpticsTableError::Format);
         }
         let (zetas, wavelengths) = (word(2) as usize, word(3) as usize);
-        if !(1..=4096).contains(&zetas) || !(1..=4096).contains(&wavelengths) {
+        if !(1..=4096).contains(&zetas) || !(1..=MAX_COLUMNS).contains(&wavelengths) {
             return Err(OpticsTableError::Format);
         }
         let layout = Layout { zetas, wavelengths };
@@ -213,6 +215,9 @@ fn check(parts: &OpticsTableParts, cells: usize) -> Result<(), OpticsTableError>
         if axis.is_empty() || axis.windows(2).any(|w| w[0].is_nan() || w[0] >= w[1]) {
             return fail(&format!("{name} must have ascending values"));
         }
+    }
+    if parts.wavelengths_nm.len() > MAX_COLUMNS {
+        return fail(&format!("more than {MAX_COLUMNS} wavelengths"));
     }
     for (name, values, len) in [
         ("c_ext_m2", &parts.c_ext_m2, cells),
@@ -299,9 +304,16 @@ impl OpticsView<'_> {
         let t = ((m - nodes[i]) / (nodes[i + 1] - nodes[i])).clamp(0.0, 1.0);
         let w = self.wavelengths_nm.len();
         let at = (row * NODES + i) * w;
-        let low = lanes.gather(&self.phase[at..at + w]);
-        let high = lanes.gather(&self.phase[at + w..at + 2 * w]);
-        low + (high - low) * t
+        let (low, high) = self.phase[at..at + 2 * w].split_at(w);
+        if w == 1 {
+            return Spectrum::splat(low[0] + (high[0] - low[0]) * t);
+        }
+        // First between angles at all wavelengths of the table, which lie side by side, then between wavelengths.
+        let mut column = [0.0f32; MAX_COLUMNS];
+        for ((c, l), h) in column.iter_mut().zip(low).zip(high) {
+            *c = l + (h - l) * t;
+        }
+        lanes.gather(&column)
     }
 
     /// Value at node `node` of the phase function of (ζ row, λ row), in 1/sr.

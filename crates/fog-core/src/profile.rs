@@ -3,7 +3,8 @@
 //! σ_t is linear between given altitudes and zero outside them, so the depth between two points is a difference of one
 //! cumulative integral, divided by the ray's slope, and a free flight is its inverse: no majorant, no null collisions.
 
-use crate::spectrum::{LaneWeights, Spectrum};
+use crate::separable::{LaneCoefficients, MAX_RANK, Separable};
+use crate::spectrum::{LANES, Spectrum, Wavelengths};
 
 /// Why a profile was refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -39,12 +40,38 @@ pub struct ExtinctionProfile {
     datum_m: f64,
     altitude_m: Vec<f64>,
     wavelengths_nm: Vec<f64>,
-    sigma_t: Vec<f64>,
-    cumulative: Vec<f64>,
-    albedo: Vec<f64>,
+    extinction: Separable,
+    /// σ_t and its integral from the base at each altitude, one entry per product of `extinction`.
+    nodes: Vec<Node>,
+    /// σ_a, by the same segments; `None` where nothing absorbs.
+    absorption: Option<Separable>,
     /// Segment at the start of each cell of an even grid over the layer: finds a segment without a search.
-    cells: Vec<u32>,
+    by_altitude: Vec<u32>,
     cells_per_m: f64,
+    /// Segment at the start of each cell of an even grid over the first product's integral.
+    by_depth: Vec<u32>,
+}
+
+/// One altitude: a cache line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+struct Node {
+    sigma: [f64; MAX_RANK],
+    cumulative: [f64; MAX_RANK],
+}
+
+/// Wavelengths of a path in the tables of a profile.
+#[derive(Clone, Copy, Debug)]
+pub struct ProfileLanes {
+    extinction: LaneCoefficients,
+    absorption: Option<LaneCoefficients>,
+}
+
+/// A point in the layer: segment, and position in it in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    segment: usize,
+    t: f64,
 }
 
 /// Part of a ray inside the layer.
@@ -91,29 +118,43 @@ impl ExtinctionProfile {
                 return Err(ProfileError::Value { what: "albedo", altitude_m, value: a, valid });
             }
         }
-        let mut cumulative = vec![0.0; n * w];
-        for i in w..n * w {
-            let h = altitude_m[i / w] - altitude_m[i / w - 1];
-            cumulative[i] = cumulative[i - w] + 0.5 * h * (sigma_t_1_m[i - w] + sigma_t_1_m[i]);
+        let extinction = Separable::new(&wavelengths_nm, &sigma_t_1_m);
+        let mut nodes: Vec<Node> = Vec::with_capacity(n);
+        for (i, &sigma) in extinction.basis.iter().enumerate() {
+            let mut cumulative = [0.0; MAX_RANK];
+            if let Some(below) = nodes.last() {
+                let h = altitude_m[i] - altitude_m[i - 1];
+                for k in 0..MAX_RANK {
+                    cumulative[k] = below.cumulative[k] + 0.5 * h * (below.sigma[k] + sigma[k]);
+                }
+            }
+            nodes.push(Node { sigma, cumulative });
         }
+        let sigma_a: Vec<f64> = sigma_t_1_m.iter().zip(&albedo).map(|(s, a)| s * (1.0 - a)).collect();
+        let absorption = sigma_a.iter().any(|&s| s > 0.0).then(|| Separable::new(&wavelengths_nm, &sigma_a));
+
         let count = 4 * n;
         let (bottom, height) = (altitude_m[0], altitude_m[n - 1] - altitude_m[0]);
-        let cells = (0..count)
-            .map(|c| {
-                let z = bottom + height * c as f64 / count as f64;
-                (altitude_m.partition_point(|&a| a <= z).clamp(1, n - 1) - 1) as u32
-            })
-            .collect();
-        let cells_per_m = count as f64 / height;
+        let deepest = nodes[n - 1].cumulative[0];
+        let cells = |below: &dyn Fn(usize, f64) -> bool| {
+            let cell = |c: usize| {
+                let share = c as f64 / count as f64;
+                ((0..n).collect::<Vec<_>>().partition_point(|&i| below(i, share)).clamp(1, n - 1) - 1) as u32
+            };
+            (0..count).map(cell).collect()
+        };
+        let by_altitude = cells(&|i, share| altitude_m[i] <= bottom + height * share);
+        let by_depth = cells(&|i, share| nodes[i].cumulative[0] <= deepest * share);
         Ok(Self {
             datum_m,
-            altitude_m,
             wavelengths_nm,
-            sigma_t: sigma_t_1_m,
-            cumulative,
-            albedo,
-            cells,
-            cells_per_m,
+            extinction,
+            nodes,
+            absorption,
+            by_altitude,
+            cells_per_m: count as f64 / height,
+            by_depth,
+            altitude_m,
         })
     }
 
@@ -166,12 +207,21 @@ impl ExtinctionProfile {
         (enter < exit).then_some(Span { enter, exit })
     }
 
-    /// Segment that holds world y (clamped to the layer) and the position in it, in [0, 1].
+    /// Finds a path's wavelengths in the tables.
+    #[must_use]
+    pub fn lanes(&self, wavelengths: &Wavelengths) -> ProfileLanes {
+        ProfileLanes {
+            extinction: self.extinction.lanes(wavelengths),
+            absorption: self.absorption.as_ref().map(|a| a.lanes(wavelengths)),
+        }
+    }
+
+    /// Place of world y, clamped to the layer.
     #[inline(always)]
-    fn locate(&self, y: f64) -> (usize, f64) {
+    fn locate(&self, y: f64) -> Place {
         let z = y - self.datum_m;
         let cell = ((z - self.altitude_m[0]) * self.cells_per_m).max(0.0) as usize;
-        let mut i = self.cells[cell.min(self.cells.len() - 1)] as usize;
+        let mut i = self.by_altitude[cell.min(self.by_altitude.len() - 1)] as usize;
         while i + 2 < self.altitude_m.len() && self.altitude_m[i + 1] <= z {
             i += 1;
         }
@@ -179,67 +229,94 @@ impl ExtinctionProfile {
             i -= 1;
         }
         let (a, b) = (self.altitude_m[i], self.altitude_m[i + 1]);
-        (i, ((z - a) / (b - a)).clamp(0.0, 1.0))
+        Place { segment: i, t: ((z - a) / (b - a)).clamp(0.0, 1.0) }
     }
 
+    /// Each product of the extinction at a place.
     #[inline(always)]
-    fn lane(&self, values: &[f64], row: usize, lanes: &LaneWeights, lane: usize) -> f64 {
-        let w = self.wavelengths_nm.len();
-        if w == 1 {
-            return values[row];
+    fn sigma_products(&self, p: Place) -> [f64; MAX_RANK] {
+        let (a, b) = (&self.nodes[p.segment].sigma, &self.nodes[p.segment + 1].sigma);
+        let mut out = [0.0; MAX_RANK];
+        for k in 0..MAX_RANK {
+            out[k] = a[k] + (b[k] - a[k]) * p.t;
         }
-        let i = row * w + lanes.index[lane] as usize;
-        values[i] + (values[i + 1] - values[i]) * f64::from(lanes.weight[lane])
+        out
     }
 
+    /// Each product of the depth over the base at a place.
     #[inline(always)]
-    fn at(&self, values: &[f64], y: f64, lanes: &LaneWeights) -> Spectrum {
-        let (i, t) = self.locate(y);
-        let one = |lane: usize| {
-            let (a, b) = (self.lane(values, i, lanes, lane), self.lane(values, i + 1, lanes, lane));
-            (a + (b - a) * t) as f32
-        };
-        if self.wavelengths_nm.len() == 1 {
-            return Spectrum::splat(one(0));
+    fn cumulative_products(&self, p: Place) -> [f64; MAX_RANK] {
+        let (a, b) = (&self.nodes[p.segment], &self.nodes[p.segment + 1]);
+        let step = (self.altitude_m[p.segment + 1] - self.altitude_m[p.segment]) * p.t;
+        let mut out = [0.0; MAX_RANK];
+        for k in 0..MAX_RANK {
+            out[k] = a.cumulative[k] + step * (a.sigma[k] + 0.5 * p.t * (b.sigma[k] - a.sigma[k]));
         }
-        Spectrum(core::array::from_fn(one))
+        out
+    }
+
+    /// Sums the products at all lanes; negative rounding is cut off.
+    #[inline(always)]
+    fn combine(products: &[f64; MAX_RANK], rank: usize, lanes: &LaneCoefficients) -> Spectrum {
+        let mut sum = [0.0f64; LANES];
+        for k in 0..rank {
+            for lane in 0..LANES {
+                sum[lane] += products[k] * lanes.0[k][lane];
+            }
+        }
+        let mut out = Spectrum::ZERO;
+        for lane in 0..LANES {
+            out[lane] = sum[lane].max(0.0) as f32;
+        }
+        out
+    }
+
+    /// Sums the products at the hero (lane 0).
+    #[inline(always)]
+    fn hero(&self, products: &[f64; MAX_RANK], lanes: &ProfileLanes) -> f64 {
+        (0..self.extinction.rank).map(|k| products[k] * lanes.extinction.0[k][0]).sum()
     }
 
     /// σ_t in 1/m at world y, which must lie in the layer.
     #[inline]
     #[must_use]
-    pub fn sigma_t(&self, y: f64, lanes: &LaneWeights) -> Spectrum {
-        self.at(&self.sigma_t, y, lanes)
+    pub fn sigma_t(&self, y: f64, lanes: &ProfileLanes) -> Spectrum {
+        Self::combine(&self.sigma_products(self.locate(y)), self.extinction.rank, &lanes.extinction)
     }
 
     /// Single-scattering albedo at world y, which must lie in the layer.
     #[inline]
     #[must_use]
-    pub fn albedo(&self, y: f64, lanes: &LaneWeights) -> Spectrum {
-        self.at(&self.albedo, y, lanes)
+    pub fn albedo(&self, y: f64, lanes: &ProfileLanes) -> Spectrum {
+        let (Some(absorption), Some(in_absorption)) = (&self.absorption, &lanes.absorption) else {
+            return Spectrum::ONE;
+        };
+        let p = self.locate(y);
+        let (a, b) = (&absorption.basis[p.segment], &absorption.basis[p.segment + 1]);
+        let mut products = [0.0; MAX_RANK];
+        for k in 0..MAX_RANK {
+            products[k] = a[k] + (b[k] - a[k]) * p.t;
+        }
+        let sigma_a = Self::combine(&products, absorption.rank, in_absorption);
+        let sigma_t = Self::combine(&self.sigma_products(p), self.extinction.rank, &lanes.extinction);
+        sigma_a.zip(sigma_t, |a, t| if t > 0.0 { (1.0 - a / t).max(0.0) } else { 1.0 })
     }
 
     /// Optical depth of the ray y = y0 + t·dy (dy: rise per metre) for 0 ≤ t ≤ t_max, at all lanes.
     #[inline]
     #[must_use]
-    pub fn optical_depth(&self, y0: f64, dy: f64, t_max: f64, lanes: &LaneWeights) -> Spectrum {
-        let Some(span) = self.clip(y0, dy, t_max) else { return Spectrum::ZERO };
-        if self.wavelengths_nm.len() == 1 {
-            return Spectrum::splat(self.span_depth(y0, dy, span, lanes, 0) as f32);
-        }
-        let (ia, ta) = self.locate(rise(y0, dy, span.enter));
-        let (ib, tb) = self.locate(rise(y0, dy, span.exit));
-        let length = span.exit - span.enter;
-        Spectrum(core::array::from_fn(|lane| {
-            self.depth_between(ia, ta, ib, tb, dy, length, lanes, lane) as f32
-        }))
+    pub fn optical_depth(&self, y0: f64, dy: f64, t_max: f64, lanes: &ProfileLanes) -> Spectrum {
+        self.clip(y0, dy, t_max).map_or(Spectrum::ZERO, |span| {
+            Self::combine(&self.depth_products(y0, dy, span), self.extinction.rank, &lanes.extinction)
+        })
     }
 
     /// Optical depth in f64 at one wavelength: what ground truth is made of.
     #[must_use]
     pub fn optical_depth_at(&self, y0: f64, dy: f64, t_max: f64, wavelength_nm: f64) -> f64 {
-        let lanes = self.lanes_at(wavelength_nm);
-        self.clip(y0, dy, t_max).map_or(0.0, |span| self.span_depth(y0, dy, span, &lanes, 0))
+        let lanes = self.lanes(&Wavelengths::monochromatic(wavelength_nm as f32));
+        self.clip(y0, dy, t_max)
+            .map_or(0.0, |span| self.hero(&self.depth_products(y0, dy, span), &lanes).max(0.0))
     }
 
     /// σ_t in f64 at one wavelength; zero outside the layer.
@@ -248,126 +325,120 @@ impl ExtinctionProfile {
         if y < self.base_y() || y > self.top_y() {
             return 0.0;
         }
-        let lanes = self.lanes_at(wavelength_nm);
-        let (i, t) = self.locate(y);
-        let (a, b) = (self.lane(&self.sigma_t, i, &lanes, 0), self.lane(&self.sigma_t, i + 1, &lanes, 0));
-        a + (b - a) * t
+        let lanes = self.lanes(&Wavelengths::monochromatic(wavelength_nm as f32));
+        self.hero(&self.sigma_products(self.locate(y)), &lanes).max(0.0)
     }
 
-    fn lanes_at(&self, wavelength_nm: f64) -> LaneWeights {
-        let all = crate::spectrum::Wavelengths::monochromatic(wavelength_nm as f32);
-        LaneWeights::new(&self.wavelengths_nm, &all)
-    }
-
-    fn span_depth(&self, y0: f64, dy: f64, span: Span, lanes: &LaneWeights, lane: usize) -> f64 {
-        let (ia, ta) = self.locate(rise(y0, dy, span.enter));
-        let (ib, tb) = self.locate(rise(y0, dy, span.exit));
-        self.depth_between(ia, ta, ib, tb, dy, span.exit - span.enter, lanes, lane)
-    }
-
-    /// Depth between two located points `length` apart. Within one segment it is the mean extinction times the length,
-    /// which stays exact however flat the ray; across segments the difference of the cumulative integral over |dy|.
+    /// Each product of the depth of a span. Within one segment it is the mean extinction times the length, which stays
+    /// exact however flat the ray; across segments the difference of the cumulative integral over |dy|.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn depth_between(
-        &self,
-        ia: usize,
-        ta: f64,
-        ib: usize,
-        tb: f64,
-        dy: f64,
-        length: f64,
-        lanes: &LaneWeights,
-        lane: usize,
-    ) -> f64 {
-        let s0 = self.lane(&self.sigma_t, ia, lanes, lane);
-        let s1 = self.lane(&self.sigma_t, ia + 1, lanes, lane);
-        if ia == ib {
-            let mean = s0 + (s1 - s0) * 0.5 * (ta + tb);
-            return if mean > 0.0 { mean * length } else { 0.0 };
+    fn depth_products(&self, y0: f64, dy: f64, span: Span) -> [f64; MAX_RANK] {
+        let a = self.locate(rise(y0, dy, span.enter));
+        let b = self.locate(rise(y0, dy, span.exit));
+        let mut out = [0.0; MAX_RANK];
+        if a.segment == b.segment {
+            let mean = self.sigma_products(Place { t: 0.5 * (a.t + b.t), ..a });
+            for k in 0..MAX_RANK {
+                // A level ray may be endless: no fog stays no depth.
+                out[k] = if mean[k] == 0.0 { 0.0 } else { mean[k] * (span.exit - span.enter) };
+            }
+            return out;
         }
-        let part = |i: usize, t: f64, s0: f64, s1: f64| {
-            let h = self.altitude_m[i + 1] - self.altitude_m[i];
-            self.lane(&self.cumulative, i, lanes, lane) + h * t * (s0 + 0.5 * t * (s1 - s0))
-        };
-        let r0 = self.lane(&self.sigma_t, ib, lanes, lane);
-        let r1 = self.lane(&self.sigma_t, ib + 1, lanes, lane);
-        (part(ib, tb, r0, r1) - part(ia, ta, s0, s1)).abs() / dy.abs()
+        let (low, high) = (self.cumulative_products(a), self.cumulative_products(b));
+        let inverse = 1.0 / dy;
+        for k in 0..MAX_RANK {
+            out[k] = (high[k] - low[k]) * inverse;
+        }
+        out
     }
 
     /// Distance at which the hero wavelength (lane 0) has crossed optical depth `tau`, if that is before `t_max` and
     /// inside the layer.
     #[inline]
     #[must_use]
-    pub fn free_flight(&self, y0: f64, dy: f64, t_max: f64, tau: f64, lanes: &LaneWeights) -> Option<f64> {
+    pub fn free_flight(&self, y0: f64, dy: f64, t_max: f64, tau: f64, lanes: &ProfileLanes) -> Option<f64> {
         let span = self.clip(y0, dy, t_max)?;
-        let mut rest = tau;
-        let mut t = span.enter;
-        let (mut i, mut pos) = self.locate(rise(y0, dy, span.enter));
-        let last = self.altitude_m.len() - 2;
-        if dy.abs() * self.cells_per_m * (span.exit - span.enter) > 32.0 {
-            // Many segments may lie ahead: jump to the one whose cumulative depth holds the target.
-            let target = self.cumulative_at(i, pos, lanes) + tau * dy;
-            let found = self.find_cumulative(target, lanes);
-            if found != i {
-                let (from, to) = if dy > 0.0 { (found, 0.0) } else { (found, 1.0) };
-                rest = (target - self.cumulative_at(from, to, lanes)) / dy;
-                let y_start = self.datum_m + self.altitude_m[if dy > 0.0 { found } else { found + 1 }];
-                t = (y_start - y0) / dy;
-                (i, pos) = (from, to);
-            }
+        let mut place = self.locate(rise(y0, dy, span.enter));
+        let (mut t, mut rest) = (span.enter, tau);
+        // Does it end within this segment?
+        match self.flight_in_segment(place, dy, rest, lanes) {
+            Flight::Ends(x) => return (t + x < span.exit).then_some(t + x),
+            Flight::Leaves if dy == 0.0 => return None,
+            Flight::Leaves => {}
         }
-        loop {
-            let s0 = self.lane(&self.sigma_t, i, lanes, 0);
-            let s1 = self.lane(&self.sigma_t, i + 1, lanes, 0);
-            let h = self.altitude_m[i + 1] - self.altitude_m[i];
-            let here = s0 + (s1 - s0) * pos;
-            // Solve here·x + ½ slope·x² = rest for the distance x; a negative root means that it never gets there.
-            let slope = (s1 - s0) / h * dy;
-            let discriminant = here * here + 2.0 * slope * rest;
-            let x =
-                if discriminant >= 0.0 { 2.0 * rest / (here + discriminant.sqrt()) } else { f64::INFINITY };
-            let to_edge = if dy > 0.0 {
-                (1.0 - pos) * h / dy
-            } else if dy < 0.0 {
-                pos * h / -dy
-            } else {
-                f64::INFINITY
-            };
-            if x <= to_edge {
-                let hit = t + x;
-                return (hit < span.exit).then_some(hit);
-            }
-            t += to_edge;
-            let next = here + slope * to_edge;
-            rest = (rest - 0.5 * (here + next) * to_edge).max(0.0);
-            if t >= span.exit || (dy > 0.0 && i == last) || (dy < 0.0 && i == 0) {
+        // No: jump to the segment whose cumulative depth holds the target.
+        let target = self.hero(&self.cumulative_products(place), lanes) + tau * dy;
+        let found = self.find_cumulative(target, lanes);
+        if found != place.segment {
+            place = Place { segment: found, t: if dy > 0.0 { 0.0 } else { 1.0 } };
+            rest = (target - self.hero(&self.cumulative_products(place), lanes)) / dy;
+            let edge = self.altitude_m[if dy > 0.0 { found } else { found + 1 }];
+            t = (self.datum_m + edge - y0) / dy;
+            if t >= span.exit {
                 return None;
             }
-            (i, pos) = if dy > 0.0 { (i + 1, 0.0) } else { (i - 1, 1.0) };
+        }
+        match self.flight_in_segment(place, dy, rest.max(0.0), lanes) {
+            Flight::Ends(x) => Some(t + x).filter(|&hit| hit < span.exit),
+            Flight::Leaves => self.flight_beyond(place, dy, t, span.exit),
         }
     }
 
-    fn cumulative_at(&self, i: usize, t: f64, lanes: &LaneWeights) -> f64 {
-        let s0 = self.lane(&self.sigma_t, i, lanes, 0);
-        let s1 = self.lane(&self.sigma_t, i + 1, lanes, 0);
-        let h = self.altitude_m[i + 1] - self.altitude_m[i];
-        self.lane(&self.cumulative, i, lanes, 0) + h * t * (s0 + 0.5 * t * (s1 - s0))
+    /// A flight that rounding put just past the end of the segment that holds its target: it ends on the edge.
+    fn flight_beyond(&self, place: Place, dy: f64, t: f64, exit: f64) -> Option<f64> {
+        let inner = if dy > 0.0 { place.segment + 2 < self.altitude_m.len() } else { place.segment > 0 };
+        let h = self.altitude_m[place.segment + 1] - self.altitude_m[place.segment];
+        let to_edge = if dy > 0.0 { (1.0 - place.t) * h / dy } else { place.t * h / -dy };
+        Some(t + to_edge).filter(|&edge| inner && edge < exit)
     }
 
-    /// Segment whose cumulative range of the hero wavelength holds `target` (clamped).
-    fn find_cumulative(&self, target: f64, lanes: &LaneWeights) -> usize {
-        let (mut low, mut high) = (0, self.altitude_m.len() - 1);
-        while high - low > 1 {
-            let middle = (low + high) / 2;
-            if self.lane(&self.cumulative, middle, lanes, 0) <= target {
-                low = middle;
-            } else {
-                high = middle;
-            }
+    /// Solves here·x + ½ slope·x² = rest for the distance x within a segment.
+    #[inline(always)]
+    fn flight_in_segment(&self, p: Place, dy: f64, rest: f64, lanes: &ProfileLanes) -> Flight {
+        let s0 = self.hero(&self.nodes[p.segment].sigma, lanes);
+        let s1 = self.hero(&self.nodes[p.segment + 1].sigma, lanes);
+        let h = self.altitude_m[p.segment + 1] - self.altitude_m[p.segment];
+        let here = s0 + (s1 - s0) * p.t;
+        let slope = (s1 - s0) / h * dy;
+        let discriminant = here * here + 2.0 * slope * rest;
+        let denominator = here + discriminant.max(0.0).sqrt();
+        let to_edge = if dy > 0.0 {
+            (1.0 - p.t) * h / dy
+        } else if dy < 0.0 {
+            p.t * h / -dy
+        } else {
+            f64::INFINITY
+        };
+        if discriminant < 0.0 || denominator <= 0.0 {
+            return Flight::Leaves;
         }
-        low
+        let x = 2.0 * rest / denominator;
+        if x <= to_edge && x < f64::INFINITY { Flight::Ends(x) } else { Flight::Leaves }
     }
+
+    /// Segment whose cumulative range of the hero holds `target` (clamped): a guess from the first product, then steps.
+    #[inline]
+    fn find_cumulative(&self, target: f64, lanes: &ProfileLanes) -> usize {
+        let last = self.nodes.len() - 1;
+        let total = self.hero(&self.nodes[last].cumulative, lanes);
+        let cell = (target / total * self.by_depth.len() as f64).max(0.0) as usize;
+        let mut i = self.by_depth[cell.min(self.by_depth.len() - 1)] as usize;
+        while i + 1 < last && self.hero(&self.nodes[i + 1].cumulative, lanes) <= target {
+            i += 1;
+        }
+        while i > 0 && self.hero(&self.nodes[i].cumulative, lanes) > target {
+            i -= 1;
+        }
+        i
+    }
+}
+
+/// What becomes of a flight within one segment.
+enum Flight {
+    /// It ends after this distance.
+    Ends(f64),
+    /// It goes on past the segment's edge.
+    Leaves,
 }
 
 /// World y at distance t; a level ray keeps its height even at infinity.
@@ -380,7 +451,6 @@ fn rise(y0: f64, dy: f64, t: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::random::PathRng;
-    use crate::spectrum::Wavelengths;
 
     fn bumpy() -> ExtinctionProfile {
         let n = 129;
@@ -409,7 +479,7 @@ mod tests {
                     / n as f64;
                 let exact = p.optical_depth_at(y0, dy, t_max, 450.0);
                 assert!((exact - brute).abs() < 1e-4 * (1e-3 + brute), "{dy} {y0} {t_max}: {exact} {brute}");
-                let lanes = LaneWeights::new(p.wavelengths_nm(), &Wavelengths::monochromatic(450.0));
+                let lanes = p.lanes(&Wavelengths::monochromatic(450.0));
                 let lane = p.optical_depth(y0, dy, t_max, &lanes)[3];
                 assert!((f64::from(lane) - exact).abs() <= 1e-6 * exact);
             }
@@ -419,7 +489,7 @@ mod tests {
     #[test]
     fn free_flight_inverts_depth() {
         let p = bumpy();
-        let lanes = LaneWeights::new(p.wavelengths_nm(), &Wavelengths::monochromatic(460.0));
+        let lanes = p.lanes(&Wavelengths::monochromatic(460.0));
         let mut rng = PathRng::new(9, 0, 0);
         let (mut hits, mut misses) = (0, 0);
         for _ in 0..50_000 {
@@ -450,7 +520,7 @@ mod tests {
         assert!(p.optical_depth_at(20.0, 0.5, f64::INFINITY, 500.0).is_finite());
         assert_eq!(p.optical_depth_at(20.0, 0.0, f64::INFINITY, 500.0), f64::INFINITY);
         assert_eq!(p.optical_depth_at(200.0, 0.5, f64::INFINITY, 500.0), 0.0);
-        let lanes = LaneWeights::new(p.wavelengths_nm(), &Wavelengths::monochromatic(500.0));
+        let lanes = p.lanes(&Wavelengths::monochromatic(500.0));
         assert!(p.free_flight(20.0, 0.0, f64::INFINITY, 30.0, &lanes).is_some());
     }
 

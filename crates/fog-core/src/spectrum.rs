@@ -1,6 +1,7 @@
 //! Wavelength samples of one path and the values that it carries at them.
 
 use crate::math;
+use crate::optics_table::MAX_COLUMNS;
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
 
 /// Wavelengths that one path carries: lane 0 is the hero, the others its companions (Wilkie et al. 2014).
@@ -28,14 +29,22 @@ impl Spectrum {
     #[inline(always)]
     #[must_use]
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
-        Self(core::array::from_fn(|i| f(self.0[i])))
+        let mut out = self;
+        for x in &mut out.0 {
+            *x = f(*x);
+        }
+        out
     }
 
     /// Applies `f` to each pair of lanes.
     #[inline(always)]
     #[must_use]
     pub fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        Self(core::array::from_fn(|i| f(self.0[i], other.0[i])))
+        let mut out = self;
+        for (x, y) in out.0.iter_mut().zip(&other.0) {
+            *x = f(*x, *y);
+        }
+        out
     }
 
     /// exp(−x) of each lane ([`math::fast_exp`]).
@@ -171,18 +180,18 @@ impl LaneWeights {
         Self { index, weight }
     }
 
-    /// Values of all lanes from one table row over wavelength (`row.len()` = number of wavelengths).
+    /// Values of all lanes from a row over wavelength.
     #[inline(always)]
     #[must_use]
-    pub fn gather(&self, row: &[f32]) -> Spectrum {
-        if let [only] = row {
-            return Spectrum::splat(*only);
+    pub fn gather(&self, row: &[f32; MAX_COLUMNS]) -> Spectrum {
+        let mut out = Spectrum::ZERO;
+        for lane in 0..LANES {
+            // The mask is no change to an index of a valid table, and saves the check.
+            let i = self.index[lane] as usize & (MAX_COLUMNS - 1);
+            let (a, b) = (row[i], row[(i + 1) & (MAX_COLUMNS - 1)]);
+            out[lane] = a + (b - a) * self.weight[lane];
         }
-        Spectrum(core::array::from_fn(|lane| {
-            let i = self.index[lane] as usize;
-            let (a, b) = (row[i], row[i + 1]);
-            a + (b - a) * self.weight[lane]
-        }))
+        out
     }
 }
 
@@ -194,9 +203,10 @@ mod tests {
     fn lanes_interpolate_and_clamp() {
         let w = Wavelengths { nm: [400.0, 410.0, 425.0, 450.0, 500.0, 300.0, 900.0, 475.0] };
         let lanes = LaneWeights::new(&[400.0, 450.0, 500.0], &w);
-        let got = lanes.gather(&[1.0, 2.0, 4.0]);
-        assert_eq!(got.0, [1.0, 1.2, 1.5, 2.0, 4.0, 1.0, 4.0, 3.0]);
-        assert_eq!(LaneWeights::new(&[550.0], &w).gather(&[7.0]), Spectrum::splat(7.0));
+        let mut row = [0.0; MAX_COLUMNS];
+        row[..3].copy_from_slice(&[1.0, 2.0, 4.0]);
+        assert_eq!(lanes.gather(&row).0, [1.0, 1.2, 1.5, 2.0, 4.0, 1.0, 4.0, 3.0]);
+        assert_eq!(LaneWeights::new(&[550.0], &w).gather(&row), Spectrum::splat(1.0));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The fog as the tracer sees it: extinction by altitude, and a phase function.
 
 use crate::phase::{Phase, PhaseNodes, PhaseView};
-use fog_core::profile::ExtinctionProfile;
+use fog_core::profile::{ExtinctionProfile, ProfileLanes};
 use fog_core::spectrum::{LaneWeights, Wavelengths};
 
 /// A horizontally even layer of fog.
@@ -49,7 +49,7 @@ pub struct MediumView<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct MediumLanes {
     /// In the extinction profile.
-    pub profile: LaneWeights,
+    pub profile: ProfileLanes,
     /// In the phase function.
     pub phase: LaneWeights,
 }
@@ -59,7 +59,7 @@ impl MediumView<'_> {
     #[must_use]
     pub fn lanes(&self, wavelengths: &Wavelengths) -> MediumLanes {
         MediumLanes {
-            profile: LaneWeights::new(self.profile.wavelengths_nm(), wavelengths),
+            profile: self.profile.lanes(wavelengths),
             phase: self.phase.lanes(wavelengths),
         }
     }

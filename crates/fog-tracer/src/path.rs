@@ -12,7 +12,8 @@ use crate::lobe::FogLobe;
 use crate::settings::Settings;
 use fog_core::colour::Observer;
 use fog_core::random::PathRng;
-use fog_core::spectrum::{LaneWeights, Spectrum, Wavelengths};
+use fog_core::profile::ProfileLanes;
+use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::camera::Ray;
 use fog_scene::medium::{MediumLanes, MediumView};
@@ -33,7 +34,7 @@ pub struct PathTracer<'a> {
     pub(crate) lights: LightMix,
     pub(crate) settings: Settings,
     /// One wavelength that every path uses where its choices must not depend on its own.
-    reference_lanes: LaneWeights,
+    reference_lanes: Option<ProfileLanes>,
 }
 
 /// What one path saw.
@@ -75,8 +76,7 @@ impl<'a> PathTracer<'a> {
     pub fn new(scene: &'a Scene, observer: &'a Observer, settings: Settings) -> Self {
         let medium = scene.medium.as_ref().map(|m| m.view());
         let all = Wavelengths::monochromatic(550.0);
-        let rows = medium.as_ref().map_or(&[550.0][..], |m| m.profile.wavelengths_nm());
-        let reference_lanes = LaneWeights::new(rows, &all);
+        let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
         Self { scene, medium, observer, lights: LightMix::new(scene), settings, reference_lanes }
     }
 
@@ -192,9 +192,9 @@ impl<'a> PathTracer<'a> {
     #[inline]
     fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
         let (medium, in_medium) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let sun = self.scene.sun.map(|sun| {
+        let sun = self.scene.sun.zip(self.reference_lanes.as_ref()).map(|(sun, reference)| {
             let (y, dy) = (f64::from(path.origin.y), f64::from(sun.direction.y));
-            let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, &self.reference_lanes);
+            let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, reference);
             (sun.direction, math::fast_exp(-tau[0]))
         });
         let lobe = FogLobe::new(&medium.phase, &in_medium.phase, row, path.direction, sun);
