@@ -136,15 +136,11 @@ impl ExtinctionProfile {
         let count = 4 * n;
         let (bottom, height) = (altitude_m[0], altitude_m[n - 1] - altitude_m[0]);
         let deepest = nodes[n - 1].cumulative[0];
-        let cells = |below: &dyn Fn(usize, f64) -> bool| {
-            let cell = |c: usize| {
-                let share = c as f64 / count as f64;
-                ((0..n).collect::<Vec<_>>().partition_point(|&i| below(i, share)).clamp(1, n - 1) - 1) as u32
-            };
-            (0..count).map(cell).collect()
-        };
-        let by_altitude = cells(&|i, share| altitude_m[i] <= bottom + height * share);
-        let by_depth = cells(&|i, share| nodes[i].cumulative[0] <= deepest * share);
+        let below = |values: &[f64], x: f64| (values.partition_point(|&v| v <= x).clamp(1, n - 1) - 1) as u32;
+        let share = |c: usize| c as f64 / count as f64;
+        let depths: Vec<f64> = nodes.iter().map(|node| node.cumulative[0]).collect();
+        let by_altitude = (0..count).map(|c| below(&altitude_m, bottom + height * share(c))).collect();
+        let by_depth = (0..count).map(|c| below(&depths, deepest * share(c))).collect();
         Ok(Self {
             datum_m,
             wavelengths_nm,

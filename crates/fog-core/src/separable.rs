@@ -14,7 +14,7 @@ const TOLERANCE: f64 = 1e-7;
 
 /// Coefficients c_k of the lanes of a path; zero beyond the rank.
 #[derive(Clone, Copy, Debug)]
-pub struct LaneCoefficients(pub(crate) [[f64; LANES]; MAX_RANK]);
+pub(crate) struct LaneCoefficients(pub(crate) [[f64; LANES]; MAX_RANK]);
 
 /// Columns of a table that span it, and the coefficients of every column.
 #[derive(Clone, Debug, PartialEq)]

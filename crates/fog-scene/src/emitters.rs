@@ -20,6 +20,7 @@ pub struct EmitterTriangle {
 pub struct Emitters {
     triangles: Vec<EmitterTriangle>,
     alias: Vec<(f32, u32)>,
+    area_m2: f32,
     /// Density in 1/m² of a point on each triangle of the geometry; 0 where nothing emits.
     density_by_triangle: Vec<f32>,
 }
@@ -52,7 +53,8 @@ impl Emitters {
             density_by_triangle[t.triangle as usize] = (t.power / total) as f32 / area(t);
         }
         let powers: Vec<f64> = triangles.iter().map(|t| t.power / total).collect();
-        Self { alias: alias_table(&powers), triangles, density_by_triangle }
+        let area_m2 = triangles.iter().map(area).sum();
+        Self { alias: alias_table(&powers), triangles, area_m2, density_by_triangle }
     }
 
     /// True if nothing emits.
@@ -60,6 +62,12 @@ impl Emitters {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
+    }
+
+    /// Area of all emitting triangles together, in m².
+    #[must_use]
+    pub fn area_m2(&self) -> f32 {
+        self.area_m2
     }
 
     /// Density in 1/m² with which [`Emitters::sample`] finds a point of this triangle of the geometry.

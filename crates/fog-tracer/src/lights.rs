@@ -10,7 +10,13 @@ use fog_core::spectrum::Spectrum;
 use fog_scene::scene::Scene;
 use fog_scene::Hit;
 
-/// Probabilities of choosing the sun and the emitters.
+/// Emitters of up to this area together are always aimed at: they are hard to run into.
+const FULL_SHARE_M2: f32 = 100.0;
+/// Share of connections to emitters of any size. Whole façades are run into anyway: in the quickstart's nights a share of
+/// 0.1 instead of 1 takes 22 % less time at 2 % more noise.
+const LEAST_SHARE: f32 = 0.1;
+
+/// Probabilities of aiming at the sun and at the emitters; what they leave is no connection at all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMix {
     sun: f32,
@@ -42,12 +48,13 @@ impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
         let (sun, emitters) = (scene.sun.is_some(), !scene.emitters().is_empty());
         let share = if sun && emitters { 0.5 } else { 1.0 };
+        let small = (FULL_SHARE_M2 / scene.emitters().area_m2()).clamp(LEAST_SHARE, 1.0);
         // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
         let sun_level = scene.sun.map_or(0.0, |s| s.irradiance / core::f32::consts::PI);
         let level = sun_level.max(if emitters { 0.1 } else { 0.0 });
         Self {
             sun: if sun { share } else { 0.0 },
-            emitters: if emitters { share } else { 0.0 },
+            emitters: if emitters { share * small } else { 0.0 },
             shadow_scale: if level > 0.0 { 1.0 / (0.02 * level) } else { 1.0 },
         }
     }
@@ -85,7 +92,8 @@ impl LightMix {
         if !self.any() {
             return None;
         }
-        if let Some(sun) = scene.sun.as_ref().filter(|_| self.emitters == 0.0 || rng.uniform() < self.sun) {
+        let pick = rng.uniform();
+        if let Some(sun) = scene.sun.as_ref().filter(|_| pick < self.sun) {
             let beam = sun.is_beam();
             let value = if beam { sun.irradiance } else { sun.radiance() };
             return Some(LightSample {
@@ -95,6 +103,9 @@ impl LightMix {
                 pdf: if beam { self.sun } else { self.sun * sun.pdf() },
                 beam,
             });
+        }
+        if pick >= self.sun + self.emitters {
+            return None;
         }
         let point = scene.emitters().sample(rng.uniform(), rng.uniform2())?;
         let offset = point.position - from;
