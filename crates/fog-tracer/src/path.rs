@@ -24,6 +24,10 @@ use fog_scene::Hit;
 const ROULETTE_DEPTH: u32 = 3;
 /// Smallest probability of survival: bounds the weight of survivors.
 const ROULETTE_MIN: f32 = 0.5;
+/// Throughput below which roulette is played where every path ends in an environment: faint paths still tell much.
+const ROULETTE_BELOW_SKY: f32 = 0.3;
+/// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
+const ROULETTE_BELOW: f32 = 1.0;
 
 /// A scene prepared for tracing paths.
 #[derive(Debug)]
@@ -35,6 +39,7 @@ pub struct PathTracer<'a> {
     pub(crate) settings: Settings,
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
+    roulette_below: f32,
 }
 
 /// What one path saw.
@@ -77,7 +82,9 @@ impl<'a> PathTracer<'a> {
         let medium = scene.medium.as_ref().map(|m| m.view());
         let all = Wavelengths::monochromatic(550.0);
         let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
-        Self { scene, medium, observer, lights: LightMix::new(scene), settings, reference_lanes }
+        let roulette_below = if scene.environment.is_some() { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
+        let lights = LightMix::new(scene);
+        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below }
     }
 
     /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.
@@ -130,7 +137,7 @@ impl<'a> PathTracer<'a> {
                     }
                 }
             };
-            if !goes_on || !survives_roulette(&mut path, rng) {
+            if !goes_on || !survives_roulette(&mut path, self.roulette_below, rng) {
                 return out;
             }
             u = rng.uniform_f64();
@@ -326,10 +333,10 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
 
 /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
 #[inline]
-fn survives_roulette(path: &mut Path, rng: &mut PathRng) -> bool {
+fn survives_roulette(path: &mut Path, below: f32, rng: &mut PathRng) -> bool {
     let mean = path.r_u.mean();
     if path.depth > ROULETTE_DEPTH {
-        let survival = (path.beta.max_lane() / mean).max(ROULETTE_MIN);
+        let survival = (path.beta.max_lane() / (mean * below)).max(ROULETTE_MIN);
         if survival < 1.0 {
             if rng.uniform() >= survival {
                 return false;
