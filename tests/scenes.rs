@@ -7,10 +7,10 @@ use fog_core::profile::ExtinctionProfile;
 use fog_core::{Vec3, Vec3A, colour::Observer};
 use fog_film::Frame;
 use fog_scene::camera::{Camera, Pose};
-use fog_scene::{Geometry, Limits, LoadedScene, Material, Triangle};
 use fog_scene::medium::Medium;
 use fog_scene::phase::Phase;
 use fog_scene::scene::Scene;
+use fog_scene::{Geometry, Limits, LoadedScene, Material, Triangle};
 use fog_tracer::settings::Settings;
 use std::sync::Arc;
 
@@ -88,7 +88,14 @@ pub fn load(name: &str) -> Arc<LoadedScene> {
 
 /// Camera at a height over the origin.
 #[must_use]
-pub fn camera(altitude_m: f32, heading_deg: f64, pitch_deg: f64, width: u32, height: u32, fov: f64) -> Camera {
+pub fn camera(
+    altitude_m: f32,
+    heading_deg: f64,
+    pitch_deg: f64,
+    width: u32,
+    height: u32,
+    fov: f64,
+) -> Camera {
     let pose = Pose::new(Vec3A::new(0.0, altitude_m, 0.0), heading_deg, pitch_deg, 0.0);
     Camera::new(pose, width, height, fov)
 }

@@ -9,7 +9,9 @@ fn collect(dir: &Path, files: &mut Vec<PathBuf>) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if path.is_dir() && !["target", "cache", "tests"].contains(&name.as_str()) {
             collect(&path, files);
-        } else if ["rs", "toml", "csv", "yaml"].contains(&path.extension().unwrap_or_default().to_str().unwrap_or("")) {
+        } else if ["rs", "toml", "csv", "yaml"]
+            .contains(&path.extension().unwrap_or_default().to_str().unwrap_or(""))
+        {
             files.push(path);
         }
     }

@@ -21,7 +21,10 @@ fn assert_white(name: &str, scene: &Scene, camera_altitude: f32, pitch: f64, sam
     }
     for c in 0..3 {
         let mean = scenes::mean(&frame, c);
-        assert!((mean - 1.0).abs() < 4.0 * scenes::standard_error(&frame).max(1e-4), "{name}: channel {c} is {mean}");
+        assert!(
+            (mean - 1.0).abs() < 4.0 * scenes::standard_error(&frame).max(1e-4),
+            "{name}: channel {c} is {mean}"
+        );
     }
 }
 

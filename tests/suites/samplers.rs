@@ -6,8 +6,8 @@ use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math, phase_grid};
 use fog_optics::advection::AdvectionModel;
-use fog_scene::bsdf::Bsdf;
 use fog_scene::SurfaceParameters;
+use fog_scene::bsdf::Bsdf;
 use fog_scene::phase::{Phase, PhaseNodes};
 use fog_tests::chi_square::assert_follows;
 

@@ -59,11 +59,16 @@ fn transmittance_is_the_integral_of_the_droplets() {
         let camera = scenes::camera(altitude, 10.0, pitch, 24, 14, 60.0);
         let t = truth(&scene, &camera, None);
         // σ_t on an even grid of altitudes, once; Simpson along each ray.
-        let table: Vec<f64> = (0..=4000).map(|i| droplets.sigma_t(height * i as f64 / 4000.0, height)).collect();
+        let table: Vec<f64> =
+            (0..=4000).map(|i| droplets.sigma_t(height * i as f64 / 4000.0, height)).collect();
         let sigma = |y: f64| {
             let x = (y / height * 4000.0).clamp(0.0, 4000.0);
             let i = (x as usize).min(3999);
-            if (0.0..=height).contains(&y) { table[i] + (table[i + 1] - table[i]) * (x - i as f64) } else { 0.0 }
+            if (0.0..=height).contains(&y) {
+                table[i] + (table[i + 1] - table[i]) * (x - i as f64)
+            } else {
+                0.0
+            }
         };
         for i in 0..camera.width as usize * camera.height as usize {
             let from_tau = (-f64::from(t.tau[i])).exp();
@@ -71,7 +76,9 @@ fn transmittance_is_the_integral_of_the_droplets() {
             let ray = camera.ray((i % 24) as f64 + 0.5, (i / 24) as f64 + 0.5);
             let (y0, dy) = (f64::from(ray.origin.y), f64::from(ray.direction.y));
             // The part inside the layer, so that the quadrature meets no jump.
-            let (a, b) = if dy == 0.0 { (0.0, f64::INFINITY) } else {
+            let (a, b) = if dy == 0.0 {
+                (0.0, f64::INFINITY)
+            } else {
                 let (p, q) = ((0.0 - y0) / dy, (height - y0) / dy);
                 (p.min(q).max(0.0), p.max(q))
             };

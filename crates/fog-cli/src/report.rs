@@ -22,11 +22,8 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize) -> Result<()> {
         let frame = frame.map_err(fogbank::Error::from)?;
         paths += fogbank::path_count(&frame);
         let sensor = &frame.sensor;
-        bytes += fogbank::dataset::estimate_bytes(
-            sensor.width_px,
-            sensor.height_px,
-            fogbank::output_set(&frame),
-        );
+        bytes +=
+            fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, fogbank::output_set(&frame));
     }
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
     println!("{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" });
@@ -98,12 +95,18 @@ impl Reporter {
         self.bar.inc(paths);
         let Ok(mut line) = self.line.lock() else { return };
         line.paths += paths;
-        if self.bar.is_hidden() && line.printed.elapsed().as_secs() >= LINE_SECONDS && line.paths < line.total {
+        if self.bar.is_hidden() && line.printed.elapsed().as_secs() >= LINE_SECONDS && line.paths < line.total
+        {
             line.printed = Instant::now();
             let share = line.paths as f64 / line.total as f64;
             let left = line.started.elapsed().as_secs_f64() * (1.0 - share) / share;
             let left = HumanDuration(Duration::from_secs_f64(left.max(1.0)));
-            self.say(&format!("  {:.0} %, {} of {} frames, about {left} left", 100.0 * share, line.frames, line.todo));
+            self.say(&format!(
+                "  {:.0} %, {} of {} frames, about {left} left",
+                100.0 * share,
+                line.frames,
+                line.todo
+            ));
         }
     }
 

@@ -41,7 +41,8 @@ impl Separable {
         let mut rank = 0;
         while rank < MAX_RANK.min(w) {
             let worst = |column: &Vec<f64>| column.iter().fold(0.0f64, |a, v| a.max(v.abs()));
-            let Some(pivot) = (0..w).max_by(|&a, &b| worst(&residual[a]).total_cmp(&worst(&residual[b]))) else {
+            let Some(pivot) = (0..w).max_by(|&a, &b| worst(&residual[a]).total_cmp(&worst(&residual[b])))
+            else {
                 break;
             };
             if rank > 0 && worst(&residual[pivot]) <= TOLERANCE * largest {

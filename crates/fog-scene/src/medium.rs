@@ -58,9 +58,6 @@ impl MediumView<'_> {
     /// Finds a path's wavelengths in the tables.
     #[must_use]
     pub fn lanes(&self, wavelengths: &Wavelengths) -> MediumLanes {
-        MediumLanes {
-            profile: self.profile.lanes(wavelengths),
-            phase: self.phase.lanes(wavelengths),
-        }
+        MediumLanes { profile: self.profile.lanes(wavelengths), phase: self.phase.lanes(wavelengths) }
     }
 }

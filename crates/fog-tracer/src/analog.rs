@@ -33,9 +33,8 @@ impl PathTracer<'_> {
                 let surface = self.scene.surface(&hit, direction, &basis);
                 sum += beta * surface.emission[0];
                 let to_local = surface.world_from_shading.transpose();
-                let sample = surface
-                    .bsdf
-                    .and_then(|b| b.sample(to_local * -direction, rng.uniform(), rng.uniform2()));
+                let sample =
+                    surface.bsdf.and_then(|b| b.sample(to_local * -direction, rng.uniform(), rng.uniform2()));
                 let Some(sample) = sample else { return sum };
                 direction = (surface.world_from_shading * sample.wi).normalize();
                 if direction.dot(surface.normal) <= 0.0 {

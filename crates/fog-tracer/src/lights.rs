@@ -7,8 +7,8 @@ use fog_core::Vec3A;
 use fog_core::colour::upsample;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
-use fog_scene::scene::Scene;
 use fog_scene::Hit;
+use fog_scene::scene::Scene;
 
 /// Emitters of up to this area together are always aimed at: they are hard to run into.
 const FULL_SHARE_M2: f32 = 100.0;

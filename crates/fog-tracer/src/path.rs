@@ -11,14 +11,14 @@ use crate::lights::{LightMix, LightSample};
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
 use fog_core::colour::Observer;
-use fog_core::random::PathRng;
 use fog_core::profile::ProfileLanes;
+use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
+use fog_scene::Hit;
 use fog_scene::camera::Ray;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::scene::{Scene, Surface};
-use fog_scene::Hit;
 
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
@@ -198,7 +198,8 @@ impl<'a> PathTracer<'a> {
     /// Connects a collision to the lights, then turns the path by the phase function of the hero; returns the light.
     #[inline]
     fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
-        let (medium, in_medium) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let (medium, in_medium) =
+            self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
         let sun = self.scene.sun.zip(self.reference_lanes.as_ref()).map(|(sun, reference)| {
             let (y, dy) = (f64::from(path.origin.y), f64::from(sun.direction.y));
             let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, reference);

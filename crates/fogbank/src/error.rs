@@ -35,7 +35,9 @@ pub enum Error {
     #[error("internal error while rendering: {0}; please report it with the configuration")]
     Panic(String),
     /// `--frame` names none of the plan's frames.
-    #[error("the plan has no frame `{wanted}`; it has {count} frames, for example `{example}` (see `fogbank plan`)")]
+    #[error(
+        "the plan has no frame `{wanted}`; it has {count} frames, for example `{example}` (see `fogbank plan`)"
+    )]
     UnknownFrame {
         /// What was asked for.
         wanted: String,
@@ -45,7 +47,9 @@ pub enum Error {
         example: String,
     },
     /// A sweep where one frame was expected.
-    #[error("{name} is a sweep of {count} frames: name one with --frame ID (see `fogbank plan`), or use `fogbank sweep`")]
+    #[error(
+        "{name} is a sweep of {count} frames: name one with --frame ID (see `fogbank plan`), or use `fogbank sweep`"
+    )]
     NotOneFrame {
         /// Name of the configuration.
         name: String,

@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::resources::Resources;
 use fog_optics::layer::{self, FogLayer};
-use fog_optics::state::FogState;
 use fog_optics::layer_csv;
+use fog_optics::state::FogState;
 use fog_plan::{FogModel, FogSpec, Phase};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
@@ -110,7 +110,8 @@ fn layer_of(model: &FogModel, resources: &Resources) -> Result<Option<(FogLayer,
             return Ok(Some((layer, Some(droplets))));
         }
         FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
-            let sigma = sigma_t_1_m.map_or_else(|| Ok(advection(*height_m)?.mean_sigma_t()), Ok::<_, Error>)?;
+            let sigma =
+                sigma_t_1_m.map_or_else(|| Ok(advection(*height_m)?.mean_sigma_t()), Ok::<_, Error>)?;
             layer::homogeneous(*height_m, sigma, *single_scattering_albedo)?
         }
         FogModel::LinearGradient {
@@ -129,8 +130,8 @@ fn layer_of(model: &FogModel, resources: &Resources) -> Result<Option<(FogLayer,
             layer::linear_gradient(*height_m, base, top, *single_scattering_albedo)?
         }
         FogModel::Layered { file, single_scattering_albedo } => {
-            let text = std::fs::read_to_string(file)
-                .map_err(|source| Error::Read { path: file.clone(), source })?;
+            let text =
+                std::fs::read_to_string(file).map_err(|source| Error::Read { path: file.clone(), source })?;
             let rows = layer_csv::parse_layers(&text, &file.display().to_string())?;
             layer::layered(&rows, *single_scattering_albedo)?
         }

@@ -5,10 +5,8 @@ use fog_scene::light::{Environment, Sun};
 
 /// Environment and sun in the tracer's units: radiance relative to D65, which a scalar already is.
 pub(crate) fn lights(spec: &LightingSpec) -> (Option<Environment>, Option<Sun>) {
-    let environment = spec
-        .environment
-        .filter(|e| e.radiance > 0.0)
-        .map(|e| Environment { radiance: e.radiance as f32 });
+    let environment =
+        spec.environment.filter(|e| e.radiance > 0.0).map(|e| Environment { radiance: e.radiance as f32 });
     let sun = spec
         .sun
         .filter(|s| s.irradiance > 0.0)

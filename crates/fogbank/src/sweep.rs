@@ -92,7 +92,8 @@ pub fn sweep(
         let started = Instant::now();
         let on_paths = |n: u64| progress.event(Event::Paths(n));
         let rendered = guarded(|| render_frame(spec, resources, &config_digest, &on_paths));
-        let stored = rendered.and_then(|r| store(&data_set, spec, &r, started).map(|()| r.frame.noise_estimate()));
+        let stored =
+            rendered.and_then(|r| store(&data_set, spec, &r, started).map(|()| r.frame.noise_estimate()));
         match stored {
             Ok(noise) => {
                 let seconds = started.elapsed().as_secs_f64();

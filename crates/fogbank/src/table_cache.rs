@@ -85,9 +85,8 @@ impl TableCache {
     }
 
     fn lock(&self, path: &Path) -> std::io::Result<File> {
-        let context = |e: std::io::Error| {
-            std::io::Error::new(e.kind(), format!("cannot lock {}: {e}", path.display()))
-        };
+        let context =
+            |e: std::io::Error| std::io::Error::new(e.kind(), format!("cannot lock {}: {e}", path.display()));
         fs::create_dir_all(&self.dir).map_err(context)?;
         let lock_path = path.with_extension("lock");
         let lock =

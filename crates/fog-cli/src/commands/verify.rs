@@ -10,6 +10,12 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode> {
         println!("{}: {}", problem.file, problem.reason);
     }
     let counts = report.counts;
-    println!("{}: {} done, {} failed, {} missing", args.dir.display(), counts.done, counts.failed, counts.missing);
+    println!(
+        "{}: {} done, {} failed, {} missing",
+        args.dir.display(),
+        counts.done,
+        counts.failed,
+        counts.missing
+    );
     Ok(ExitCode::from(u8::from(!report.is_complete())))
 }

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Every check and every test of Fogbank, on a machine with Rust and Python 3. Installs what it needs. Stops at the first
+# failure. CI runs this file.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export CARGO_TERM_COLOR=never
+DENY=0.20.2
+
+step() { printf '\n== %s (%ss)\n' "$1" "$SECONDS"; }
+
+step "rustfmt"
+cargo fmt --all --check
+
+step "clippy"
+cargo clippy --quiet --release --workspace --all-targets -- -D warnings
+
+step "documentation"
+RUSTDOCFLAGS="-D warnings" cargo doc --quiet --release --workspace --no-deps
+
+step "layers"
+bash tests/layers.sh
+
+step "licences, sources, duplicates"
+tools="${CARGO_TARGET_DIR:-target}/tools"
+deny="$(command -v cargo-deny || true)"
+[ -n "$deny" ] || deny="$tools/bin/cargo-deny"
+[ -x "$deny" ] || cargo install --quiet --locked --version "$DENY" --root "$tools" cargo-deny
+"$deny" --log-level error check licenses bans sources
+
+step "tests in release mode"
+cargo test --release --workspace
+
+step "tools in Python"
+bash tools/test.sh
+
+step "all passed"

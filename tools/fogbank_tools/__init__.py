@@ -1,0 +1,1 @@
+"""Reads and checks Fogbank's data sets, independently of its Rust code."""
