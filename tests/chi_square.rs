@@ -37,7 +37,7 @@ pub fn assert_follows(name: &str, observed: &[u64], expected: &[f64], tests: usi
     }
     assert!(cells > 2, "{name}: only {cells} cells");
     let p_value = 1.0 - ChiSquared::new((cells - 1) as f64).expect("degrees of freedom").cdf(statistic);
-    let significance = 1.0 - (1.0 - 0.01f64).powf(1.0 / tests as f64);
+    let significance = 1.0 - fog_core::math::f64::pow(1.0 - 0.01, 1.0 / tests as f64);
     if p_value < significance {
         worst.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (chi, i, o, e) in worst.iter().take(20) {

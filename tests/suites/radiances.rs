@@ -42,7 +42,7 @@ fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32) 
     let (mut compared, mut worst) = (0, 0.0f64);
     for (row, level) in csv::rows(file).iter().zip(&levels) {
         let direction = travel(row["mu"], row["phi_deg"]);
-        if f64::from(direction.dot(-sun.direction)).clamp(-1.0, 1.0) > BEAM_DEG.to_radians().cos() {
+        if f64::from(direction.dot(-sun.direction)).clamp(-1.0, 1.0) > math::f64::cos(BEAM_DEG.to_radians()) {
             continue;
         }
         let y = if level == "top" { top + 1.0 } else { base + 1e-3 };

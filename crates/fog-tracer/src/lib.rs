@@ -1,6 +1,6 @@
 //! Integrators and the tile scheduler: (scene, settings, seed) to film.
 //!
-//! [`render::render`] is the way in; [`path`] is the integrator, [`analog`] the short one it is tested against.
+//! [`render::render`] is the way in; [`path`] is the integrator, `analog` the short one it is tested against.
 //! No file access, clock, printing or global state (DESIGN invariant 1).
 
 mod analog;

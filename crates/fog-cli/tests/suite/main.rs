@@ -1,0 +1,11 @@
+//! The program as its users run it: real command lines, real files.
+
+mod cache;
+mod commands;
+mod common;
+mod data_set;
+mod determinism;
+mod failures;
+mod mistakes;
+mod records;
+mod visibility;
