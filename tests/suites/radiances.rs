@@ -19,8 +19,6 @@ use rayon::prelude::*;
 
 /// Directions closer than this to the beam's own are left out.
 const BEAM_DEG: f64 = 2.0;
-/// Paths per direction.
-const PATHS: u64 = 400_000;
 
 /// Light that travels with this direction cosine to the vertical and azimuth from the beam's own (which is −Z).
 fn travel(mu: f64, phi_deg: f64) -> Vec3A {
@@ -29,13 +27,13 @@ fn travel(mu: f64, phi_deg: f64) -> Vec3A {
     Vec3A::new((s * math::f64::sin(phi)) as f32, mu as f32, (-s * math::f64::cos(phi)) as f32).normalize()
 }
 
-fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32) {
+fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32, paths: u64) {
     // The beam travels towards −Z (north), so the sun stands in the south.
     let sun = Sun::new(90.0 - sun_zenith_deg, 180.0, 1.0, 0.0);
     let (base, top) = (medium.profile().base_y(), medium.profile().top_y());
     let scene = Scene::new(scenes::lambertian_ground(ground_albedo), Some(medium), None, Some(sun), false);
     let observer = Observer::new();
-    let settings = Settings { samples: PATHS, max_depth: None, wavelength_nm: Some(550.0) };
+    let settings = Settings { samples: paths, max_depth: None, wavelength_nm: Some(550.0) };
     let tracer = PathTracer::new(&scene, &observer, settings);
     let wavelengths = Wavelengths::monochromatic(550.0);
     let levels = csv::text_column(file, "level");
@@ -51,7 +49,7 @@ fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32) 
             .into_par_iter()
             .map(|chunk| {
                 let mut m = Moments::default();
-                for s in 0..PATHS / 100 {
+                for s in 0..paths / 100 {
                     let mut rng = PathRng::new(77, chunk, s);
                     let first = rng.uniform();
                     m.add(f64::from(tracer.radiance(ray, &wavelengths, first, &mut rng).radiance[0]));
@@ -84,7 +82,7 @@ fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32) 
 #[test]
 fn henyey_greenstein_layer() {
     let profile = scenes::grey_profile(100.0, &[0.02, 0.02], 1.0);
-    compare("fog_radiance_hg.csv", scenes::hg_fog(profile, 0.83), 60.0, 0.2);
+    compare("fog_radiance_hg.csv", scenes::hg_fog(profile, 0.83), 60.0, 0.2, 200_000);
 }
 
 #[test]
@@ -96,5 +94,5 @@ fn advection_layer() {
     let profile = layer::advection(&optics, &model, 180.0, 1.0).unwrap().profile(0.0).unwrap();
     let depth = profile.optical_depth_at(0.0, 1.0, 200.0, 550.0);
     assert!((depth / 8.425_122 - 1.0).abs() < 3e-3, "optical depth {depth}");
-    compare("fog_radiance_advection.csv", Medium::new(profile, Phase::Table(optics)), 45.0, 0.15);
+    compare("fog_radiance_advection.csv", Medium::new(profile, Phase::Table(optics)), 45.0, 0.15, 1_000_000);
 }

@@ -4,6 +4,7 @@
 
 mod args;
 mod commands;
+mod print;
 mod report;
 
 use clap::Parser;
@@ -21,9 +22,13 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(code) => code,
+        Err(error) if print::reader_has_gone(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("fogbank: {error:#}");
-            let failed_frame = error.downcast_ref::<fogbank::Error>().is_some_and(|e| !e.is_user_mistake());
+            let ours = error.downcast_ref::<fogbank::Error>();
+            // Our own messages hold their causes already.
+            let message = ours.map_or_else(|| format!("{error:#}"), ToString::to_string);
+            print::complaint(format_args!("fogbank: {message}"));
+            let failed_frame = ours.is_some_and(|e| !e.is_user_mistake());
             ExitCode::from(if failed_frame { 1 } else { 2 })
         }
     }

@@ -1,10 +1,11 @@
 //! What the user sees while the work goes on: the plan, a progress bar with ETA on a terminal, lines elsewhere.
 
+use crate::print;
 use anyhow::Result;
 use fogbank::plan::Plan;
 use fogbank::{Event, Progress, TableOrigin};
 use indicatif::{HumanBytes, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -16,7 +17,7 @@ const NOMINAL_PATHS_PER_SECOND: f64 = 200_000.0;
 const LINE_SECONDS: u64 = 10;
 
 /// Prints name, axes, size and estimates of a plan.
-pub(crate) fn print_plan(plan: &Plan, threads: usize) -> Result<()> {
+pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<()> {
     let (mut paths, mut bytes) = (0u64, 0u64);
     for frame in plan.frames() {
         let frame = frame.map_err(fogbank::Error::from)?;
@@ -26,19 +27,20 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize) -> Result<()> {
             fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, fogbank::output_set(&frame));
     }
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
-    println!("{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" });
+    writeln!(out, "{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" })?;
     for axis in plan.axes() {
         let more = axis.len.is_some_and(|n| n > axis.values.len());
-        println!("  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" });
+        writeln!(out, "  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" })?;
     }
     let seconds = paths as f64 / (NOMINAL_PATHS_PER_SECOND * threads as f64);
-    println!(
+    writeln!(
+        out,
         "  about {} on {threads} thread{} for {:.1} million paths, about {} on disk",
         HumanDuration(Duration::from_secs_f64(seconds.max(1.0))),
         if threads == 1 { "" } else { "s" },
         paths as f64 / 1e6,
         HumanBytes(bytes),
-    );
+    )?;
     Ok(())
 }
 
@@ -86,7 +88,7 @@ impl Reporter {
 
     fn say(&self, text: &str) {
         if !self.quiet {
-            self.bar.suspend(|| println!("{text}"));
+            self.bar.suspend(|| print::news(text));
         }
     }
 
@@ -175,7 +177,7 @@ impl Progress for Reporter {
             Event::FrameFailed { id, reason, paths: _ } => {
                 self.failures.fetch_add(1, Ordering::Relaxed);
                 let n = self.next_frame();
-                self.bar.suspend(|| eprintln!("{n:>7}  {id}  FAILED: {reason}"));
+                self.bar.suspend(|| print::complaint(format_args!("{n:>7}  {id}  FAILED: {reason}")));
             }
             Event::Finished { counts } => {
                 let (failed, missing) = (counts.failed, counts.missing);

@@ -1,7 +1,7 @@
 //! Choosing a light for next-event estimation.
 //!
-//! The uniform environment is not among them: directions drawn from the phase function or the BSDF sample it perfectly
-//! already, and a shadow ray per event would double a path's cost (measured; docs/performance.md).
+//! The uniform environment is not among them: to connect to a light that shines alike from everywhere one would draw the
+//! direction from the phase function or the BSDF, and that is what continuing the path does.
 
 use fog_core::Vec3A;
 use fog_core::colour::upsample;

@@ -56,16 +56,28 @@ impl Fog {
         Ok(Some(Self { medium, layer, droplets, g, datum_m: spec.datum_m }))
     }
 
-    /// What the fog is at world height `y`: σ_t, albedo, g and visibility at 550 nm, and the droplets where the model has
-    /// them. A phase function that is not the droplets' own gives its own g.
+    /// Altitude over the fog's datum of world height `y`, in metres.
+    pub(crate) fn altitude_m(&self, y: f64) -> f64 {
+        y - self.datum_m
+    }
+
+    /// Altitudes of the layer's base and top in metres over the datum.
+    pub(crate) fn extent_m(&self) -> [f64; 2] {
+        self.layer.extent_m()
+    }
+
+    /// What the fog is at an altitude in metres over its datum: σ_t, albedo, g and visibility at 550 nm, and the droplets
+    /// where the model has them. σ_t is that of the layer that is traced, which is linear between its rows. A phase
+    /// function that is not the droplets' own gives its own g.
     ///
     /// # Errors
     /// None for a fog that could be made.
-    pub fn state(&self, y: f64) -> Result<FogState, Error> {
-        let altitude = y - self.datum_m;
-        let Some(d) = &self.droplets else { return Ok(FogState::grey(&self.layer, self.g, altitude)) };
+    pub fn state(&self, altitude_m: f64) -> Result<FogState, Error> {
+        let grey = FogState::grey(&self.layer, self.g, altitude_m);
+        let Some(d) = &self.droplets else { return Ok(grey) };
         let mut state =
-            FogState::advection(&d.table, &d.model, d.height_m, d.number_density_scale, altitude)?;
+            FogState::advection(&d.table, &d.model, d.height_m, d.number_density_scale, altitude_m)?;
+        (state.sigma_t_550_1_m, state.mor_m) = (grey.sigma_t_550_1_m, grey.mor_m);
         if state.g.is_some() && self.g.is_some() {
             state.g = self.g;
         }
@@ -73,10 +85,10 @@ impl Fog {
     }
 
     /// [`Fog::state`] as it is recorded.
-    pub(crate) fn state_json(&self, y: f64) -> Value {
-        let s = self.state(y).unwrap_or_default();
+    pub(crate) fn state_json(&self, altitude_m: f64) -> Value {
+        let s = self.state(altitude_m).unwrap_or_default();
         json!({
-            "altitude_m": y - self.datum_m,
+            "altitude_m": altitude_m,
             "sigma_t_1_m": s.sigma_t_550_1_m,
             "albedo": s.albedo,
             "g": s.g,

@@ -18,12 +18,12 @@ pub(crate) fn record(
 ) -> Value {
     let mut value = json!(spec);
     let layer = fog.map(|fog| {
-        let y = f64::from(camera.pose.position.y);
+        let [base, top] = fog.extent_m();
         json!({
             "wavelength_nm": TAU_NM,
-            "at_camera": fog.state_json(y),
-            "at_base": fog.state_json(fog.medium.profile().base_y()),
-            "at_top": fog.state_json(fog.medium.profile().top_y()),
+            "at_camera": fog.state_json(fog.altitude_m(f64::from(camera.pose.position.y))),
+            "at_base": fog.state_json(base),
+            "at_top": fog.state_json(top),
         })
     });
     value["fog_state"] = layer.unwrap_or(Value::Null);

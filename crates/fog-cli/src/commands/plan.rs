@@ -11,13 +11,13 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     if !args.json {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        report::print_plan(&plan, threads)?;
+        report::print_plan(&plan, threads, &mut out)?;
         writeln!(out)?;
     }
     for frame in plan.frames() {
         let frame = frame.map_err(fogbank::Error::from)?;
         if args.json {
-            serde_json::to_writer(&mut out, &frame)?;
+            serde_json::to_writer(&mut out, &frame).map_err(std::io::Error::from)?;
             writeln!(out)?;
         } else {
             writeln!(out, "{:>6}  {}", frame.index, frame.id)?;

@@ -1,9 +1,10 @@
 //! `fogbank schema`: the JSON Schema of configurations.
 
 use anyhow::Result;
+use std::io::Write;
 use std::process::ExitCode;
 
 pub(crate) fn run() -> Result<ExitCode> {
-    println!("{}", serde_json::to_string_pretty(&fogbank::plan::schema_json())?);
+    writeln!(std::io::stdout(), "{}", serde_json::to_string_pretty(&fogbank::plan::schema_json())?)?;
     Ok(ExitCode::SUCCESS)
 }

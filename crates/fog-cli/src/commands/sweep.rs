@@ -1,6 +1,7 @@
 //! `fogbank sweep`: every frame of a configuration.
 
 use crate::args::{SweepArgs, WorkArgs};
+use crate::print;
 use crate::report::{self, Reporter};
 use anyhow::{Context, Result};
 use fogbank::plan::Plan;
@@ -11,7 +12,9 @@ use std::process::ExitCode;
 pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
     let plan = fogbank::plan::load(&args.config.config, &args.config.sets).map_err(fogbank::Error::from)?;
     if !args.work.quiet {
-        report::print_plan(&plan, threads(&args.work))?;
+        let mut summary = Vec::new();
+        report::print_plan(&plan, threads(&args.work), &mut summary)?;
+        print::news(String::from_utf8_lossy(&summary).trim_end());
     }
     render(&plan, &Selection::All, &args.work)
 }

@@ -1,21 +1,20 @@
 //! `fogbank verify`: is a data set what it says it is?
 
 use crate::args::VerifyArgs;
+use crate::print;
 use anyhow::Result;
 use std::process::ExitCode;
 
 pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode> {
     let report = fogbank::dataset::verify(&args.dir).map_err(fogbank::Error::from)?;
     for problem in &report.problems {
-        println!("{}: {}", problem.file, problem.reason);
+        print::news(format_args!("{}: {}", problem.file, problem.reason));
     }
     let counts = report.counts;
-    println!(
-        "{}: {} done, {} failed, {} missing",
-        args.dir.display(),
-        counts.done,
-        counts.failed,
-        counts.missing
-    );
+    let dir = args.dir.display();
+    print::news(format_args!(
+        "{dir}: {} done, {} failed, {} missing",
+        counts.done, counts.failed, counts.missing
+    ));
     Ok(ExitCode::from(u8::from(!report.is_complete())))
 }

@@ -87,7 +87,6 @@ fn verify_finds_a_flipped_byte() {
         format!("{id}.hdr.exr"),
         format!("{id}.gt.exr"),
         format!("{id}.json"),
-        "plan.jsonl".to_owned(),
         "config.resolved.yaml".to_owned(),
     ];
     for file in files {
@@ -96,7 +95,6 @@ fn verify_finds_a_flipped_byte() {
         let mut bad = good.clone();
         bad[good.len() / 2] ^= 1;
         fs::write(&path, bad).unwrap();
-        // A plan that is no longer one cannot be compared at all.
         let found = run(&["verify", "out"], dir.path());
         assert_eq!(found.code, Some(1), "{file}: {}{}", found.stdout, found.stderr);
         assert!(found.stdout.starts_with(&format!("{file}: ")), "{}", found.stdout);
@@ -118,4 +116,30 @@ fn lost_and_cut_files_are_made_again() {
     let said = sweep(dir.path(), "out").ok().stdout;
     assert!(said.contains("4 frames are done already, 2 to go"), "{said}");
     assert_same(&dir.path().join("out"), &dir.path().join("good"));
+}
+
+#[test]
+fn verify_without_a_readable_plan_is_a_mistake() {
+    let dir = folder("fog: none\n");
+    sweep(dir.path(), "out").ok();
+    fs::write(dir.path().join("out/plan.jsonl"), "no plan").unwrap();
+    let found = run(&["verify", "out"], dir.path());
+    assert_eq!(found.code, Some(2));
+    assert!(found.stderr.starts_with("fogbank: out/plan.jsonl is damaged: line 1"), "{}", found.stderr);
+    // The plan follows from the configuration: a rerun writes it again.
+    sweep(dir.path(), "out").ok();
+    run(&["verify", "out"], dir.path()).ok();
+}
+
+#[test]
+fn shipped_configurations_are_valid() {
+    for (config, frames) in [("quickstart", 12), ("approach", 12)] {
+        let plan = run(&["plan", &format!("configs/{config}.yaml"), "--json"], &repository("")).ok().stdout;
+        let plan: Vec<_> = plan.lines().map(json).collect();
+        assert!(plan.len() >= frames, "{config}: {}", plan.len());
+        for frame in plan {
+            let scene = frame["scene"]["file"].as_str().unwrap();
+            assert!(repository(scene).is_file(), "{scene}");
+        }
+    }
 }

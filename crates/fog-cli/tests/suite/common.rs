@@ -54,7 +54,7 @@ pub(crate) fn repository(file: &str) -> PathBuf {
 pub(crate) fn folder(lines: &str) -> tempfile::TempDir {
     let dir = tempfile::tempdir().expect("temporary folder");
     let scene = repository("scenes/street.glb");
-    write(dir.path(), "c.yaml", &config(&format!("scene: {{file: {scene:?}}}\nlighting: day\n{lines}")));
+    write(dir.path(), "c.yaml", config(&format!("scene: {{file: {scene:?}}}\nlighting: day\n{lines}")));
     dir
 }
 

@@ -7,5 +7,6 @@ mod data_set;
 mod determinism;
 mod failures;
 mod mistakes;
+mod pipes;
 mod records;
 mod visibility;

@@ -70,6 +70,21 @@ fn the_fog_at_camera_base_and_top() {
 }
 
 #[test]
+fn the_top_belongs_to_the_layer_on_any_datum() {
+    // (43.21 + 50) - 43.21 is more than 50.
+    let dir = folder(
+        "outputs: [tau]\nsweep: {axes: {fog: [{model: advection, height_m: 50, datum_m: 43.21}, \
+         {model: homogeneous, height_m: 50, sigma_t_1_m: 0.02, phase: {hg: 0.8}, datum_m: 43.21}]}}\n",
+    );
+    sweep(dir.path(), "out").ok();
+    for record in records(dir.path()) {
+        let top = &record["fog_state"]["at_top"];
+        assert_eq!(top["altitude_m"], 50.0);
+        assert!(top["sigma_t_1_m"].as_f64().unwrap() > 1e-3, "{top}");
+    }
+}
+
+#[test]
 fn a_grey_fog_has_no_droplets_and_clear_air_no_fog() {
     let dir = folder(
         "sweep: {axes: {fog: [none, {model: homogeneous, height_m: 50, sigma_t_1_m: 0.02, \
