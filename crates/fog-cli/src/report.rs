@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// Paths per second and thread that an estimate before rendering counts with: the quickstart's mean where it was measured
 /// (README). The bar's ETA takes over once paths are traced.
-const NOMINAL_PATHS_PER_SECOND: f64 = 200_000.0;
+const NOMINAL_PATHS_PER_SECOND: f64 = 70_000.0;
 /// Seconds between progress lines where no terminal shows a bar.
 const LINE_SECONDS: u64 = 10;
 

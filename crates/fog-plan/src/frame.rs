@@ -213,7 +213,7 @@ pub struct SunSpec {
 pub struct RenderSpec {
     /// Paths per pixel, 1 to 1 000 000.
     pub samples: u32,
-    /// Most scattering events of a path; absent: no limit.
+    /// Longest path in edges from camera to light (1: only light that comes straight from its source); absent: no limit.
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
     pub wavelength_nm: Option<f64>,

@@ -10,9 +10,14 @@ use fog_core::spectrum::{LaneWeights, Spectrum};
 use fog_core::{Vec3A, math, warp};
 use fog_scene::phase::PhaseView;
 
-/// Share of directions drawn around the sun where its beam is unattenuated; elsewhere times the root of its transmittance.
-/// In the advection layer of tests/data/fog_radiance_advection.csv this takes the standard deviation from 24 to 9 means.
-const SUN_SHARE: f32 = 0.15;
+/// Share of directions drawn around the sun by paths that travel elsewhere; times the root of the beam's transmittance, so
+/// that the many scatterings in the dark depth of a layer are left alone.
+const FAR_SHARE: f32 = 0.1;
+/// The same for paths that already travel towards the sun, for which both parts of the mixture are nearly one; times the
+/// fourth root, for they are about to fly to where the beam is strong.
+const NEAR_SHARE: f32 = 0.5;
+/// 1 − cos of the angle to the sun at which half of the way from one to the other is gone: 10°.
+const NEAR_M: f32 = 0.015;
 
 /// The mixture of one scattering.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +49,10 @@ impl<'a> FogLobe<'a> {
         sun: Option<(Vec3A, f32)>,
     ) -> Self {
         let (sun, transmittance) = sun.unwrap_or((before, 0.0));
-        Self { phase, lanes, row, before, sun, sun_share: SUN_SHARE * transmittance.sqrt() }
+        let root = transmittance.sqrt();
+        let near = 1.0 / (1.0 + 0.5 * (sun - before).length_squared() / NEAR_M);
+        let sun_share = FAR_SHARE * root * (1.0 - near) + NEAR_SHARE * root.sqrt() * near;
+        Self { phase, lanes, row, before, sun, sun_share }
     }
 
     /// Value and density for a direction of travel after the scattering.

@@ -6,7 +6,7 @@ use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::{CODE_DIGEST, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
-use fog_plan::{FrameSpec, Plan};
+use fog_plan::{FogModel, FrameSpec, Plan};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -29,7 +29,11 @@ impl Selection {
         let Self::One(wanted) = self else { return Ok((0..frames.len()).collect()) };
         let exact = frames.iter().position(|f| f.id == *wanted);
         let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());
+        // A number is an index and nothing else: a job array that counts too far must not render some frame twice.
         let by_prefix = || {
+            if wanted.bytes().all(|b| b.is_ascii_digit()) {
+                return None;
+            }
             let mut matches = (0..frames.len()).filter(|&i| frames[i].id.starts_with(wanted.as_str()));
             matches.next().filter(|_| matches.next().is_none())
         };
@@ -61,6 +65,7 @@ pub fn sweep(
     for &i in &selected {
         resources.prepare(&frames[i], progress)?;
     }
+    warn_of_extrapolation(&selected, &frames, resources, progress);
     // If not one of them can be put together, that is the configuration's fault and not a frame's.
     let mut refused = None;
     for &i in &selected {
@@ -113,6 +118,30 @@ pub fn sweep(
     let counts = data_set.finish()?;
     progress.event(Event::Finished { counts });
     Ok(counts)
+}
+
+/// Says once for which fog heights the model goes beyond what was measured.
+fn warn_of_extrapolation(
+    selected: &[usize],
+    frames: &[FrameSpec],
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut heights: Vec<f64> = selected
+        .iter()
+        .filter_map(|&i| match frames[i].fog.model {
+            FogModel::Advection { height_m, .. } if resources.model.extrapolates(height_m) => Some(height_m),
+            _ => None,
+        })
+        .collect();
+    heights.sort_by(f64::total_cmp);
+    heights.dedup();
+    if !heights.is_empty() {
+        let measured = resources.model.measured_heights_m();
+        progress.event(Event::Warning(format!(
+            "advection fog of {heights:?} m is an extrapolation: the model was fitted to layers of {measured:?} m"
+        )));
+    }
 }
 
 /// Number of paths that a frame takes.

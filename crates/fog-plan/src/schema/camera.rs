@@ -66,7 +66,7 @@ pub(crate) struct RenderFile {
     /// Paths per pixel.
     #[schemars(range(min = ranges::SAMPLES.min, max = ranges::SAMPLES.max))]
     pub(crate) samples: i64,
-    /// Most scattering events of a path. Absent: no limit.
+    /// Longest path in edges from camera to light; 1: only light that comes straight from its source. Absent: no limit.
     #[schemars(range(min = ranges::MAX_DEPTH.min, max = ranges::MAX_DEPTH.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) max_depth: Option<i64>,
