@@ -33,7 +33,7 @@ fn assert_agree(name: &str, scene: &Scene, rays: &[(f64, f64)], max_depth: Optio
                 }
                 (fast, analog)
             })
-            .reduce(Default::default, |a, b| (join(a.0, b.0), join(a.1, b.1)));
+            .reduce(Default::default, |a, b| (a.0.merge(b.0), a.1.merge(b.1)));
         let sigma = fast.standard_error().hypot(analog.standard_error());
         let difference = fast.mean() - analog.mean();
         // About 30 rays over all tests: 4.5 standard errors leave a chance of 2e-4 of a false alarm.
@@ -47,10 +47,6 @@ fn assert_agree(name: &str, scene: &Scene, rays: &[(f64, f64)], max_depth: Optio
         );
         assert!(sigma < 0.05 * analog.mean().max(0.02), "{name}, ray {k}: too noisy to tell ({sigma})");
     }
-}
-
-fn join(a: Moments, b: Moments) -> Moments {
-    Moments { n: a.n + b.n, sum: a.sum + b.sum, sum_sq: a.sum_sq + b.sum_sq }
 }
 
 fn grey_fog(albedo: f64) -> Medium {

@@ -56,11 +56,7 @@ fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32, 
                 }
                 m
             })
-            .reduce(Moments::default, |a, b| Moments {
-                n: a.n + b.n,
-                sum: a.sum + b.sum,
-                sum_sq: a.sum_sq + b.sum_sq,
-            });
+            .reduce(Moments::default, Moments::merge);
         let (want, got, error) = (row["radiance"], sum.mean(), sum.standard_error());
         let off = (got - want).abs();
         println!(

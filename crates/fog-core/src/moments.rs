@@ -20,6 +20,12 @@ impl Moments {
         self.sum_sq += x * x;
     }
 
+    /// The moments of both sets of samples together.
+    #[must_use]
+    pub fn merge(self, other: Self) -> Self {
+        Self { n: self.n + other.n, sum: self.sum + other.sum, sum_sq: self.sum_sq + other.sum_sq }
+    }
+
     /// Sample mean; 0 without samples.
     #[must_use]
     pub fn mean(&self) -> f64 {

@@ -132,11 +132,4 @@ impl PhaseView<'_> {
             }
         }
     }
-
-    /// Mean cosine of the value at lane 0, by quadrature over the nodes.
-    #[must_use]
-    pub fn mean_cosine(&self, row: usize, lanes: &LaneWeights) -> f64 {
-        let nodes = phase_grid::nodes();
-        phase_grid::mean_cosine(&nodes, |i| f64::from(self.eval(row, nodes[i] as f32, lanes)[0]))
-    }
 }
