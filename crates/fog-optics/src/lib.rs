@@ -17,10 +17,12 @@
 
 pub mod advection;
 pub mod distribution;
+pub mod droplet_fog;
 pub mod error;
 pub mod intensities;
 pub mod layer;
 pub mod layer_csv;
+pub mod lidar;
 pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;

@@ -6,6 +6,7 @@
 pub mod allard;
 pub mod category;
 pub mod koschmieder;
+pub mod parametrised;
 pub mod rvr;
 pub mod slant;
 pub mod threshold;
