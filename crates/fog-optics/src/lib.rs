@@ -16,6 +16,8 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+mod csv;
 pub mod distribution;
 pub mod error;
 pub mod layer;
@@ -24,7 +26,9 @@ pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
 pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;
