@@ -16,6 +16,8 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+mod csv;
 pub mod distribution;
 pub mod droplet_fog;
 pub mod error;
@@ -27,7 +29,9 @@ pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
 pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;
