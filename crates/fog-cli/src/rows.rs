@@ -19,6 +19,8 @@ pub(crate) enum Form {
 pub(crate) enum Cell {
     Number(f64),
     Text(String),
+    /// Yes or no.
+    Answer(bool),
     /// Not defined here.
     Nothing,
 }
@@ -46,6 +48,7 @@ impl Cell {
         match self {
             Self::Number(x) => Number::from_f64(*x).map_or(Value::Null, Value::Number),
             Self::Text(text) => Value::String(text.clone()),
+            Self::Answer(yes) => Value::Bool(*yes),
             Self::Nothing => Value::Null,
         }
     }
@@ -58,6 +61,7 @@ impl Cell {
                 format!("\"{}\"", text.replace('"', "\"\""))
             }
             Self::Text(text) => text.clone(),
+            Self::Answer(yes) => yes.to_string(),
             Self::Nothing => String::new(),
         }
     }
@@ -66,6 +70,7 @@ impl Cell {
         match self {
             Self::Number(x) => significant(*x),
             Self::Text(text) => text.clone(),
+            Self::Answer(yes) => if *yes { "yes" } else { "no" }.to_owned(),
             Self::Nothing => "-".to_owned(),
         }
     }
@@ -124,6 +129,33 @@ pub(crate) fn print(
             Ok(())
         }
     }
+}
+
+/// Most rows that a tall table puts side by side.
+const MAX_TALL: usize = 6;
+
+/// As [`print`], but a table of few rows is turned: a line per column, which many columns read better in.
+pub(crate) fn print_tall(
+    form: Form,
+    columns: &[&str],
+    rows: &[Vec<Cell>],
+    out: &mut impl Write,
+) -> io::Result<()> {
+    if form != Form::Table || rows.len() > MAX_TALL {
+        return print(form, columns, rows, out);
+    }
+    let texts: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(Cell::plain).collect()).collect();
+    let name_width = columns.iter().map(|c| c.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> =
+        texts.iter().map(|row| row.iter().map(|c| c.chars().count()).max().unwrap_or(0)).collect();
+    for (i, name) in columns.iter().enumerate() {
+        write!(out, "{name:<name_width$}")?;
+        for (row, width) in texts.iter().zip(&widths) {
+            write!(out, "  {:>width$}", row[i])?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
 }
 
 /// A row as a JSON object.

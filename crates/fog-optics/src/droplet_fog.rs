@@ -29,7 +29,11 @@ pub enum Amount {
 }
 
 impl Amount {
-    fn check(&self) -> Result<(), OpticsError> {
+    /// Refuses an amount outside of its range.
+    ///
+    /// # Errors
+    /// With name, value, unit and range if it is.
+    pub fn check(&self) -> Result<(), OpticsError> {
         match *self {
             Self::Number(n) => check_range("number density (1/m³)", n, 1.0, 1e13),
             Self::Water(w) => check_range("liquid water content (g/m³)", w, 1e-9, 1e3),
@@ -95,6 +99,21 @@ impl DropletFog {
     pub fn scaled(&self, factor: f64) -> Result<Self, OpticsError> {
         check_range("number_density_scale", factor, 0.0, 1e6)?;
         Ok(Self { factor_1_m3: self.factor_1_m3 * factor, ..self.clone() })
+    }
+
+    /// The argument of [`DropletFog::scaled`] that makes the meteorological optical range `mor_m`.
+    ///
+    /// # Errors
+    /// If the range is out of that of [`Amount::Mor`], or there are no droplets to be scaled.
+    pub fn factor_for_mor(&self, mor_m: f64) -> Result<f64, OpticsError> {
+        Amount::Mor(mor_m).check()?;
+        check_range(
+            "sigma_t (1/m) that is to be scaled",
+            self.sigma_t_550_1_m(),
+            f64::MIN_POSITIVE,
+            f64::MAX,
+        )?;
+        Ok(sigma_t_from_mor(mor_m) / self.sigma_t_550_1_m())
     }
 
     /// The spectrum.

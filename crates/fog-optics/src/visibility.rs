@@ -16,5 +16,5 @@ pub use koschmieder::{
     KOSCHMIEDER_OPTICAL_DEPTH, MOR_OPTICAL_DEPTH, koschmieder_m, mor_m, sigma_t_from_koschmieder,
     sigma_t_from_mor,
 };
-pub use slant::{Law, Sight};
+pub use slant::{Law, Sight, transmittance};
 pub use threshold::Threshold;

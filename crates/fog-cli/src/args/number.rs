@@ -11,6 +11,13 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
+/// So many numbers with commas between them.
+pub(super) fn numbers<const COUNT: usize>(text: &str) -> Result<[f64; COUNT], String> {
+    let all = text.split(',').map(number).collect::<Result<Vec<_>, _>>()?;
+    <[f64; COUNT]>::try_from(all)
+        .map_err(|all| format!("expected {COUNT} numbers with commas, not {}", all.len()))
+}
+
 /// A refractive index `N` or `N,K`.
 pub(super) fn index(text: &str) -> Result<[f64; 2], String> {
     let parts: Vec<&str> = text.split(',').collect();

@@ -8,6 +8,8 @@ mod determinism;
 mod failures;
 mod mie;
 mod mistakes;
+mod optics;
 mod pipes;
 mod records;
 mod visibility;
+mod visibility_laws;

@@ -8,7 +8,7 @@ use super::koschmieder::{KOSCHMIEDER_OPTICAL_DEPTH, MOR_OPTICAL_DEPTH};
 use crate::error::{OpticsError, check_range};
 use crate::layer::{FogLayer, REFERENCE_NM};
 use fog_core::math::PI;
-use fog_core::math::f64::{ln, sin};
+use fog_core::math::f64::{exp, ln, sin};
 use fog_core::profile::ExtinctionProfile;
 use fog_core::spectrum::Wavelengths;
 
@@ -93,7 +93,7 @@ impl Sight {
         elevation_deg: f64,
         distance_m: f64,
     ) -> Result<f64, OpticsError> {
-        let rise = self.rise(altitude_m, elevation_deg)?;
+        let rise = rise(altitude_m, elevation_deg)?;
         check_range("distance_m", distance_m, 0.0, f64::INFINITY)?;
         Ok(self.profile.optical_depth_at(altitude_m, rise, distance_m, self.wavelength_nm))
     }
@@ -140,7 +140,7 @@ impl Sight {
     /// If an argument or a number of the law is out of range.
     pub fn along_m(&self, law: &Law, altitude_m: f64, elevation_deg: f64) -> Result<f64, OpticsError> {
         law.check()?;
-        let rise = self.rise(altitude_m, elevation_deg)?;
+        let rise = rise(altitude_m, elevation_deg)?;
         let lanes = self.profile.lanes(&Wavelengths::monochromatic(self.wavelength_nm as f32));
         let at_depth = |tau| self.profile.free_flight(altitude_m, rise, f64::INFINITY, tau, &lanes);
         Ok(match *law {
@@ -178,17 +178,17 @@ impl Sight {
             if tau + 2.0 * ln(r) < wanted { low = r } else { high = r }
         }
     }
-
-    /// Metres of altitude per metre of path.
-    fn rise(&self, altitude_m: f64, elevation_deg: f64) -> Result<f64, OpticsError> {
-        check_altitude(altitude_m)?;
-        check_range("elevation angle (degrees)", elevation_deg, -90.0, 90.0)?;
-        Ok(sin(elevation_deg * PI / 180.0))
-    }
 }
 
 fn check_altitude(altitude_m: f64) -> Result<(), OpticsError> {
     check_range("altitude_m", altitude_m, ALTITUDE_RANGE_M[0], ALTITUDE_RANGE_M[1])
+}
+
+/// Share of light that crosses an optical depth without being scattered or absorbed, e^(−τ): also the contrast of a dark
+/// object against the sky behind it.
+#[must_use]
+pub fn transmittance(optical_depth: f64) -> f64 {
+    exp(-optical_depth)
 }
 
 /// Length in m of the straight path between two altitudes in m that are `across_m` apart horizontally.
@@ -202,11 +202,37 @@ pub fn path_length_m(from_m: f64, to_m: f64, across_m: f64) -> Result<f64, Optic
     Ok(((from_m - to_m) * (from_m - to_m) + across_m * across_m).sqrt())
 }
 
+/// Distance in m from one altitude to another along an elevation angle in degrees; none where the line does not lead there.
+/// 0 if they are equal.
+///
+/// # Errors
+/// If an altitude or the angle is out of range.
+pub fn distance_to_altitude_m(
+    from_m: f64,
+    to_m: f64,
+    elevation_deg: f64,
+) -> Result<Option<f64>, OpticsError> {
+    check_altitude(to_m)?;
+    let climb = to_m - from_m;
+    let rise = rise(from_m, elevation_deg)?;
+    Ok(match climb {
+        0.0 => Some(0.0),
+        _ => Some(climb / rise).filter(|d| *d > 0.0 && d.is_finite()),
+    })
+}
+
+/// Metres of altitude per metre of path.
+fn rise(altitude_m: f64, elevation_deg: f64) -> Result<f64, OpticsError> {
+    check_altitude(altitude_m)?;
+    check_range("elevation angle (degrees)", elevation_deg, -90.0, 90.0)?;
+    Ok(sin(elevation_deg * PI / 180.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::layer::{homogeneous, layered, linear_gradient};
-    use fog_core::math::f64::exp;
+    use fog_core::random::PathRng;
 
     const LIGHT: Law = Law::Allard { intensity_cd: 1000.0, threshold_lx: 8e-7 };
 
@@ -293,9 +319,45 @@ mod tests {
             "50 m are an optical depth of 1"
         );
         assert!(close(sight.along_m(&LIGHT, 60.0, 10.0).unwrap(), (1000.0f64 / 8e-7).sqrt()));
+        assert!(close(distance_to_altitude_m(60.0, 0.0, -30.0).unwrap().unwrap(), 120.0));
+        assert_eq!(distance_to_altitude_m(60.0, 0.0, 30.0).unwrap(), None);
+        assert_eq!(distance_to_altitude_m(60.0, 0.0, 0.0).unwrap(), None);
+        assert_eq!(distance_to_altitude_m(60.0, 60.0, 5.0).unwrap(), Some(0.0));
         assert!(sight.along_m(&Law::Mor, 60.0, -91.0).is_err());
         assert!(sight.along_m(&Law::Mor, f64::NAN, 0.0).is_err());
         let dark = Law::Allard { intensity_cd: 0.0, threshold_lx: 1e-6 };
         assert!(sight.horizontal_m(&dark, 1.0).is_err());
+    }
+
+    #[test]
+    fn random_layers_never_give_nonsense_and_depth_grows_with_distance() {
+        let mut rng = PathRng::new(11, 0, 0);
+        for _ in 0..200 {
+            let (mut z, mut rows) = (0.0, vec![]);
+            for _ in 0..2 + (20.0 * rng.uniform_f64()) as usize {
+                rows.push((z, (0.2 * rng.uniform_f64() - 0.05).max(0.0)));
+                z += 0.01 + 30.0 * rng.uniform_f64();
+            }
+            let sight = Sight::new(&layered(&rows, 1.0).unwrap()).unwrap();
+            for _ in 0..20 {
+                let altitude = 1.2 * z * rng.uniform_f64();
+                let elevation = (180.0 * rng.uniform_f64() - 90.0) * rng.uniform_f64();
+                let mut last = 0.0;
+                for i in 0..50 {
+                    let depth = sight.optical_depth(altitude, elevation, 7.0 * f64::from(i)).unwrap();
+                    assert!(
+                        depth >= last - 1e-12 * last && depth.is_finite(),
+                        "{rows:?} {altitude} {elevation}"
+                    );
+                    last = depth;
+                }
+                let [five, two] =
+                    [Law::Mor, Law::Koschmieder].map(|l| sight.along_m(&l, altitude, elevation).unwrap());
+                assert!(five > 0.0 && two >= five, "{rows:?} {altitude} {elevation}: {five} {two}");
+                let weak = Law::Allard { intensity_cd: 10.0, threshold_lx: 8e-7 };
+                let [near, far] = [weak, LIGHT].map(|l| sight.along_m(&l, altitude, elevation).unwrap());
+                assert!(near > 0.0 && far > near && far.is_finite(), "{rows:?} {altitude} {elevation}");
+            }
+        }
     }
 }
