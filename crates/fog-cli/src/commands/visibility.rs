@@ -1,6 +1,7 @@
 //! `fogbank visibility`: how far one sees in a fog, by every law.
 
 mod air;
+mod facts;
 mod laws;
 mod section;
 

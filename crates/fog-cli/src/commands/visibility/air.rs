@@ -26,7 +26,7 @@ enum Droplets {
     Unknown,
     /// The model's, with the number of droplets scaled.
     Advection {
-        model: AdvectionModel,
+        model: Box<AdvectionModel>,
         height_m: f64,
         scale: f64,
     },
@@ -103,5 +103,5 @@ fn advection(model: AdvectionModel, height_m: f64, mor_m: Option<f64>, first_m: 
             crate::rows::significant(scale)
         );
     }
-    Air::of_layer(&fog, description, Droplets::Advection { model, height_m, scale })
+    Air::of_layer(&fog, description, Droplets::Advection { model: Box::new(model), height_m, scale })
 }

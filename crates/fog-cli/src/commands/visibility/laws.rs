@@ -2,16 +2,16 @@
 
 use super::Report;
 use super::air::Air;
+use super::facts;
 use super::section::{Column, Section};
 use crate::args::{EditionArg, VisibilityArgs};
 use crate::rows::Cell;
 use anyhow::{Result, bail};
-use fogbank::optics::droplet_fog::DropletFog;
 use fogbank::optics::visibility::category::Edition;
 use fogbank::optics::visibility::rvr::{ASSESSMENT_HEIGHT_M, RunwayLights, Rvr};
 use fogbank::optics::visibility::slant::{distance_to_altitude_m, path_length_m};
 use fogbank::optics::visibility::threshold::{self, Threshold};
-use fogbank::optics::visibility::{Law, PAPER_INTENSITIES_CD, Sight, parametrised};
+use fogbank::optics::visibility::{Law, PAPER_INTENSITIES_CD, Sight};
 
 /// Laws of visual range with their thresholds.
 pub(super) struct Laws {
@@ -101,10 +101,10 @@ impl Laws {
             bail!("--altitude {altitude_m} m is outside of the fog; valid: {base} to {top} m");
         }
         let droplets = air.droplets(altitude_m)?;
-        let mut report = vec![objects(&air.sight, altitude_m)?];
+        let mut report = vec![facts::objects(&air.sight, altitude_m)?];
         if let Some(droplets) = &droplets {
-            report.push(water(droplets));
-            report.push(regressions(droplets)?);
+            report.push(facts::water(droplets));
+            report.push(facts::regressions(droplets)?);
         }
         report.push(self.lights(&air.sight, altitude_m)?);
         report.push(self.runway(&air.sight)?);
@@ -115,7 +115,7 @@ impl Laws {
             report.push(self.slants(&air.sight, altitude_m, &args.slant)?);
         }
         if let Some([to_m, across_m]) = args.to {
-            report.push(path(&air.sight, altitude_m, to_m, across_m)?);
+            report.push(facts::path(&air.sight, altitude_m, to_m, across_m)?);
             report.push(self.down_to(&air.sight, altitude_m, to_m, "to", Some(across_m))?);
         }
         Ok(report)
@@ -239,69 +239,6 @@ impl Laws {
         );
         Ok(Section { title, name: Some("slant"), conditions: 5, columns, rows })
     }
-}
-
-fn objects(sight: &Sight, altitude_m: f64) -> Result<Section> {
-    let title = format!("Objects at {altitude_m} m (Koschmieder)");
-    Ok(Section::facts(
-        title,
-        vec![
-            ("altitude_m", "altitude/m", altitude_m.into()),
-            ("sigma_t_1_m", "extinction coefficient at 550 nm/(1/m)", sight.sigma_t(altitude_m).into()),
-            ("mor_m", "MOR, 5 % contrast (WMO-No. 8)/m", sight.horizontal_m(&Law::Mor, altitude_m)?.into()),
-            (
-                "koschmieder_m",
-                "visual range, 2 % contrast/m",
-                sight.horizontal_m(&Law::Koschmieder, altitude_m)?.into(),
-            ),
-        ],
-    ))
-}
-
-fn water(fog: &DropletFog) -> Section {
-    let m = fog.moments();
-    Section::facts(
-        "Droplets".to_owned(),
-        vec![
-            ("number_density_m3", "number density/(1/m³)", fog.number_density_1_m3().into()),
-            (
-                "liquid_water_content_g_m3",
-                "liquid water content/(g/m³)",
-                fog.liquid_water_content_g_m3().into(),
-            ),
-            ("effective_radius_um", "effective radius/µm", m.effective_radius_um.into()),
-            ("effective_variance", "effective variance", m.effective_variance.into()),
-            ("mean_diameter_um", "mean diameter/µm", m.mean_diameter_um.into()),
-        ],
-    )
-}
-
-fn regressions(fog: &DropletFog) -> Result<Section> {
-    let (water, number) = (fog.liquid_water_content_g_m3(), fog.number_density_1_m3());
-    let kunkel = Law::Koschmieder.range_m(parametrised::kunkel_1984_sigma_t(water)?);
-    let gultepe = parametrised::gultepe_2006_visibility_m(water, number)?;
-    Ok(Section::facts(
-        "For comparison: regressions on measurements, 2 % contrast".to_owned(),
-        vec![
-            ("kunkel_1984_m", "from water, Kunkel 1984/m", kunkel.into()),
-            ("gultepe_2006_m", "from water and number, Gultepe et al. 2006/m", gultepe.into()),
-        ],
-    ))
-}
-
-fn path(sight: &Sight, from_m: f64, to_m: f64, across_m: f64) -> Result<Section> {
-    let depth = sight.optical_depth_between(from_m, to_m, across_m)?;
-    let title = format!("Path from {from_m} m to a point at {to_m} m, {across_m} m away");
-    Ok(Section::facts(
-        title,
-        vec![
-            ("to_altitude_m", "altitude of the point/m", to_m.into()),
-            ("to_distance_m", "horizontal distance/m", across_m.into()),
-            ("path_length_m", "length/m", path_length_m(from_m, to_m, across_m)?.into()),
-            ("optical_depth", "optical depth", depth.into()),
-            ("transmittance", "transmittance", fogbank::optics::visibility::transmittance(depth).into()),
-        ],
-    ))
 }
 
 /// Documents of the thresholds, each once.
