@@ -3,7 +3,7 @@
 use fog_core::math::{PI, f64::cos};
 use fog_optics::mie::{Complex64, MieSeries, efficiencies};
 
-const REFERENCE: &str = include_str!("../../../tests/data/mie.csv");
+const REFERENCE: &str = include_str!("../../../../tests/data/mie.csv");
 const ANGLES_DEG: [f64; 10] = [0.0, 1.0, 5.0, 20.0, 60.0, 90.0, 120.0, 138.0, 165.0, 180.0];
 
 #[test]
