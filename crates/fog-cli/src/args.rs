@@ -1,5 +1,12 @@
 //! Arguments as they are typed.
 
+mod form;
+mod mie;
+mod number;
+
+pub(crate) use form::FormArgs;
+pub(crate) use mie::MieArgs;
+
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -34,6 +41,8 @@ pub(crate) enum Command {
     Scene(SceneArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
+    /// Scattering by one sphere: the Mie series.
+    Mie(MieArgs),
 }
 
 /// Which configuration.

@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod print;
 mod report;
+mod rows;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -19,6 +20,7 @@ fn main() -> ExitCode {
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
+        args::Command::Mie(args) => commands::mie::run(&args),
     };
     match result {
         Ok(code) => code,

@@ -16,14 +16,22 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+mod csv;
 pub mod distribution;
+pub mod droplet_fog;
 pub mod error;
+pub mod intensities;
 pub mod layer;
 pub mod layer_csv;
+pub mod lidar;
 pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
+pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;

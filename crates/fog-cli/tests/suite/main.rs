@@ -6,6 +6,7 @@ mod common;
 mod data_set;
 mod determinism;
 mod failures;
+mod mie;
 mod mistakes;
 mod pipes;
 mod records;
