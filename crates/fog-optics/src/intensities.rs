@@ -14,7 +14,8 @@ pub struct Intensity {
     pub s1_sq: f64,
     /// |S2|², parallel to the scattering plane.
     pub s2_sq: f64,
-    /// Phase function of unpolarised light in 1/sr, (|S1|² + |S2|²) / (2π x² Q_sca): its integral over the sphere is 1.
+    /// Phase function of unpolarised light in 1/sr, (|S1|² + |S2|²) / (2π x² Q_sca): its integral over the sphere is 1; 0
+    /// for a sphere that scatters nothing.
     pub phase_function_1_sr: f64,
 }
 
@@ -26,7 +27,8 @@ pub fn at_degrees(series: &MieSeries, angles_deg: &[f64]) -> Result<Vec<Intensit
     angles_deg.iter().try_for_each(|&a| check_range("scattering angle (degrees)", a, 0.0, 180.0))?;
     let cosines: Vec<f64> = angles_deg.iter().map(|a| cos(a * PI / 180.0)).collect();
     let x = series.size_parameter();
-    let scale = 1.0 / (2.0 * PI * x * x * series.efficiencies().q_sca);
+    let q_sca = series.efficiencies().q_sca;
+    let scale = if q_sca > 0.0 { 1.0 / (2.0 * PI * x * x * q_sca) } else { 0.0 };
     Ok((angles_deg.iter().zip(series.amplitudes(&cosines)))
         .map(|(&angle_deg, s)| {
             let (s1_sq, s2_sq) = (s.s1.norm_sqr(), s.s2.norm_sqr());
@@ -59,6 +61,8 @@ mod tests {
             let rayleigh = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
             assert!((s.phase_function_1_sr / rayleigh - 1.0).abs() < 1e-6, "{s:?}");
         }
+        let none = MieSeries::new(Complex64::new(1.0, 0.0), 1.0).unwrap();
+        assert_eq!(at_degrees(&none, &[30.0]).unwrap()[0].phase_function_1_sr, 0.0);
         for bad in [-1.0, 180.1, f64::NAN] {
             assert!(at_degrees(&small, &[0.0, bad]).is_err());
         }

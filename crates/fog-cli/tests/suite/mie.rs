@@ -32,7 +32,7 @@ fn spheres_of_the_reference_agree() {
                     (row[format!("abs_{s}_sq")].as_f64().unwrap(), want)
                 }
             };
-            let bound = if name.starts_with('q') || *name == "g" { 2e-9 } else { 1e-8 };
+            let bound = if name.starts_with('q') || *name == "g" { 1e-10 } else { 1e-8 };
             assert!(
                 (value - want).abs() <= bound * scale.abs(),
                 "{index} {} {name}: {value} {want}",
