@@ -20,8 +20,6 @@ convention), coefficients of extinction and scattering in 1/m, the droplets in t
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct OpticsArgs {
-    #[command(flatten)]
-    pub(crate) fog: FogSourceArgs,
     /// Wavelengths in nm.
     #[arg(long, value_name = "NM", value_parser = number, num_args = 1.., value_delimiter = ',',
           required_unless_present = "preset", allow_negative_numbers = true)]
@@ -31,4 +29,7 @@ pub(crate) struct OpticsArgs {
     pub(crate) preset: Option<String>,
     #[command(flatten)]
     pub(crate) form: FormArgs,
+    // Last, for its heading holds for all that follows.
+    #[command(flatten)]
+    pub(crate) fog: FogSourceArgs,
 }

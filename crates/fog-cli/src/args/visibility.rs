@@ -33,8 +33,6 @@ pub(crate) enum EditionArg {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct VisibilityArgs {
-    #[command(flatten)]
-    pub(crate) fog: FogSourceArgs,
     /// Fog layer from a CSV file with the columns altitude_m,sigma_t_1_m.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "distribution", "number", "lwc", "mor", "sigma", "height"])]
     pub(crate) layers: Option<PathBuf>,
@@ -68,4 +66,7 @@ pub(crate) struct VisibilityArgs {
     pub(crate) categories: EditionArg,
     #[command(flatten)]
     pub(crate) form: FormArgs,
+    // Last, for its heading holds for all that follows.
+    #[command(flatten)]
+    pub(crate) fog: FogSourceArgs,
 }
