@@ -1,5 +1,9 @@
 //! Arguments as they are typed.
 
+mod compare;
+
+pub(crate) use compare::CompareArgs;
+
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -16,6 +20,7 @@ Examples:
   fogbank plan configs/quickstart.yaml                        list the frames without rendering
   fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
   fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
+  fogbank compare a.hdr.exr b.hdr.exr --out map.png           how different they look, where, and in radiance
   fogbank schema > fogbank.schema.json                        for completion and checks in an editor
 
 Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files.";
@@ -34,6 +39,8 @@ pub(crate) enum Command {
     Scene(SceneArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
+    /// Compare two pictures or data sets: ΔE2000 with its map, relative MSE, PSNR, z-scores.
+    Compare(CompareArgs),
 }
 
 /// Which configuration.

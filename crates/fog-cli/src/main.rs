@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
+        args::Command::Compare(args) => commands::compare::run(&args),
     };
     match result {
         Ok(code) => code,
