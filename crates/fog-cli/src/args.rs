@@ -1,5 +1,6 @@
 //! Arguments as they are typed.
 
+mod compare;
 mod fog_source;
 mod form;
 mod mie;
@@ -7,6 +8,7 @@ mod number;
 mod optics;
 mod visibility;
 
+pub(crate) use compare::CompareArgs;
 pub(crate) use fog_source::FogSourceArgs;
 pub(crate) use form::FormArgs;
 pub(crate) use mie::MieArgs;
@@ -29,6 +31,7 @@ Examples:
   fogbank plan configs/quickstart.yaml                        list the frames without rendering
   fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
   fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
+  fogbank compare a.hdr.exr b.hdr.exr --out map.png           how different they look, where, and in radiance
   fogbank schema > fogbank.schema.json                        for completion and checks in an editor
   fogbank visibility --model advection --height 180           how far one sees in that fog, by every law
   fogbank optics --model advection --height 180 --altitude 2 --wavelength 550 905   extinction, albedo, g, water
@@ -55,6 +58,8 @@ pub(crate) enum Command {
     Optics(OpticsArgs),
     /// Scattering by one sphere: the Mie series.
     Mie(MieArgs),
+    /// Compare two pictures or data sets: ΔE2000 with its map, relative MSE, PSNR, z-scores.
+    Compare(CompareArgs),
 }
 
 /// Which configuration.

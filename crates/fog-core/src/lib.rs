@@ -7,6 +7,7 @@
 //! radians unless a name says `_deg`. World: right-handed, +Y up; altitude is y over the fog's datum.
 
 pub mod colour;
+pub mod delta_e;
 pub mod math;
 pub mod moments;
 pub mod optics_table;

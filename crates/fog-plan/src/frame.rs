@@ -239,4 +239,6 @@ pub enum Output {
     Direct,
     /// Light that the fog scattered.
     Airlight,
+    /// Standard error of each pixel's luminance.
+    StandardError,
 }

@@ -16,6 +16,7 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod compare;
 mod error;
 mod fog;
 mod frame;
@@ -26,9 +27,13 @@ mod resources;
 mod sweep;
 mod table_cache;
 
+pub use compare::{
+    Compared, FramePair, LeftOut, MatchedFrames, Matching, Means, compare_pictures, match_frames,
+};
 pub use error::Error;
 pub use fog::Fog;
 pub use fog_dataset as dataset;
+pub use fog_film as film;
 pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_scene::generate;

@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+pub(crate) mod compare;
 mod fog_source;
 pub(crate) mod mie;
 pub(crate) mod optics;

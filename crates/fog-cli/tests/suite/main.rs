@@ -3,6 +3,7 @@
 mod cache;
 mod commands;
 mod common;
+mod compare;
 mod data_set;
 mod determinism;
 mod failures;

@@ -60,14 +60,14 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; all of them unless said otherwise.
+/// Names of the outputs; unless said otherwise all but `standard_error`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);
 
 impl Default for Outputs {
     fn default() -> Self {
-        Self(OutputFile::ALL.to_vec())
+        Self(OutputFile::DEFAULT.to_vec())
     }
 }
 
