@@ -19,6 +19,7 @@ pub mod advection;
 pub mod catalogue;
 mod csv;
 pub mod distribution;
+pub mod droplets;
 pub mod error;
 pub mod layer;
 pub mod layer_csv;
