@@ -1,9 +1,13 @@
 //! A fog of droplets: any spectrum with any vertical profile of number density, over a layer of given thickness.
 
-use crate::advection::{AdvectionModel, HEIGHT_RANGE_M};
+use crate::advection::AdvectionModel;
 use crate::error::{OpticsError, check_range};
 use crate::size::SizeDistribution;
 use crate::vertical::VerticalProfile;
+
+/// Least and greatest thickness of a layer in m. An advection model has a range of its own
+/// ([`crate::advection::HEIGHT_RANGE_M`]).
+pub const HEIGHT_RANGE_M: [f64; 2] = [1.0, 5000.0];
 
 /// Greatest number density in 1/m³ that a fog may have: far more than the 10¹⁰ of the densest measured fogs.
 const MAX_NUMBER_1_M3: f64 = 1e15;
@@ -41,7 +45,7 @@ pub struct DropletFog {
 impl DropletFog {
     /// A fog with `number_density_1_m3` droplets per m³ in the mean over its altitudes, of all diameters
     /// ([`SizeDistribution::share_in_range`] of them lie in the spectrum's range), distributed over altitude by `profile`, in
-    /// a layer of `height_m`, 1 to 2000.
+    /// a layer of `height_m`, 1 to 5000.
     ///
     /// # Errors
     /// If the height or the number density (0 to 1e15 1/m³) is out of range.
@@ -59,7 +63,7 @@ impl DropletFog {
     /// The fog of an advection model with a height in m: its spectra and its scaling matrix.
     ///
     /// # Errors
-    /// If the height is outside [`HEIGHT_RANGE_M`].
+    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`].
     pub fn advection(model: &AdvectionModel, height_m: f64) -> Result<Self, OpticsError> {
         let (profile, mean_1_m3) = VerticalProfile::advection(model, height_m)?;
         Self::new(Spectra::Advection(model.clone()), profile, mean_1_m3, height_m)
@@ -108,7 +112,7 @@ mod tests {
     fn wrong_heights_and_numbers_are_refused() {
         let gamma = Spectra::Same(SizeDistribution::gamma(5.0, 0.1).unwrap());
         let fog = |number, height| DropletFog::new(gamma.clone(), VerticalProfile::uniform(), number, height);
-        for bad in [0.0, -10.0, 5000.0, f64::NAN] {
+        for bad in [0.0, -10.0, 5001.0, f64::NAN] {
             assert!(fog(1e8, bad).unwrap_err().to_string().contains("fog height_m"), "{bad}");
         }
         for bad in [-1.0, 1e16, f64::NAN] {
