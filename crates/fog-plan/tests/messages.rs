@@ -219,13 +219,17 @@ fn droplets() {
     );
     assert_eq!(
         fog("droplets: {lognormals: [{median_diameter_um: 5, geometric_sd: 1.5}]}"),
-        ["configs/x.yaml:6:6: fog.number_density_1_m3: missing; droplets per m³ in the mean over altitude, or give \
-          fog.visibility"]
+        [
+            "configs/x.yaml:6:6: fog.number_density_1_m3: missing; droplets per m³ in the mean over altitude, or give \
+          fog.visibility"
+        ]
     );
     assert_eq!(
         fog("number_density_1_m3: 1e8"),
-        ["configs/x.yaml:6:6: fog.droplets: missing; a name such as shettle_fenn_radiation_heavy, or one of {gamma: …}, \
-          {modified_gamma: …}, {lognormals: …}, {file: …}"]
+        [
+            "configs/x.yaml:6:6: fog.droplets: missing; a name such as shettle_fenn_radiation_heavy, or one of {gamma: …}, \
+          {modified_gamma: …}, {lognormals: …}, {file: …}"
+        ]
     );
     let vertical = |value: &str| fog(&format!("droplets: deirmendjian_haze_m, vertical: {value}"));
     assert_eq!(
@@ -239,7 +243,10 @@ fn droplets() {
             "configs/x.yaml:6:97: fog.vertical.rows.1.0: 0.2 follows 0.5; valid: ascending",
         ]
     );
-    assert_eq!(vertical("{rows: [[0, 1]]}"), ["configs/x.yaml:6:85: fog.vertical.rows: 1 rows; valid: at least 2"]);
+    assert_eq!(
+        vertical("{rows: [[0, 1]]}"),
+        ["configs/x.yaml:6:85: fog.vertical.rows: 1 rows; valid: at least 2"]
+    );
     assert_eq!(
         errors("fog: {model: advection, height_m: 9, vertical: uniform}\n"),
         ["configs/x.yaml:6:48: fog.vertical: `vertical` belongs to model droplets, not advection"]
