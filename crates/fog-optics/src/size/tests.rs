@@ -1,6 +1,9 @@
 use super::*;
 use crate::water;
-use fog_core::math::f64::{exp, pow};
+use fog_core::math::{
+    PI,
+    f64::{exp, pow},
+};
 use fog_core::random::PathRng;
 
 fn shape() -> SpectrumShape {
