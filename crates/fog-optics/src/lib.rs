@@ -20,6 +20,7 @@ pub mod catalogue;
 mod csv;
 pub mod distribution;
 pub mod droplet_fog;
+pub mod droplets;
 pub mod error;
 pub mod intensities;
 pub mod layer;

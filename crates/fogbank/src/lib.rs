@@ -17,6 +17,7 @@
 //! ```
 
 mod compare;
+mod droplets;
 mod error;
 mod fog;
 mod frame;

@@ -6,6 +6,7 @@ mod common;
 mod compare;
 mod data_set;
 mod determinism;
+mod droplets;
 mod failures;
 mod mie;
 mod mistakes;
