@@ -39,6 +39,9 @@ pub enum OpticsError {
         /// The value found and what is expected instead.
         problem: String,
     },
+    /// Parameters or rows that make no droplet spectrum.
+    #[error("droplet spectrum: {0}")]
+    Distribution(String),
     /// Axes of a table that do not fit each other or do not ascend.
     #[error("optics table settings: {0}")]
     Settings(String),

@@ -23,6 +23,7 @@ pub mod layer_csv;
 pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
+pub mod size;
 pub mod state;
 pub mod table;
 pub mod visibility;
