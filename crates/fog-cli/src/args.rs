@@ -1,5 +1,9 @@
 //! Arguments as they are typed.
 
+mod figures;
+
+pub(crate) use figures::{FigureFormat, FiguresArgs};
+
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -34,6 +38,8 @@ pub(crate) enum Command {
     Scene(SceneArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
+    /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
+    Figures(FiguresArgs),
 }
 
 /// Which configuration.

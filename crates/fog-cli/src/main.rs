@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
+        args::Command::Figures(args) => commands::figures::run(&args),
     };
     match result {
         Ok(code) => code,

@@ -12,7 +12,6 @@ mod text;
 
 pub(crate) use axis::Axis;
 pub(crate) use page::{Block, Page, Row};
-pub(crate) use panel::{Note, Panel, Series};
+pub(crate) use panel::{Panel, Series};
 pub(crate) use ridges::Ridges;
 pub(crate) use strips::Strips;
-pub(crate) use svg::Anchor;

@@ -51,7 +51,13 @@ pub(crate) fn draw(name: &str, sources: &Sources<'_>) -> Result<Figure, FiguresE
 /// Puts a figure together.
 pub(crate) fn figure(name: &str, title: &str, caption: &str, rows: Vec<Row>, sheet: Sheet) -> Figure {
     let svg = Page { title, caption, rows }.svg();
-    Figure { name: name.to_owned(), title: title.to_owned(), caption: caption.to_owned(), svg, csv: sheet.finish() }
+    Figure {
+        name: name.to_owned(),
+        title: title.to_owned(),
+        caption: caption.to_owned(),
+        svg,
+        csv: sheet.finish(),
+    }
 }
 
 /// `count` numbers at equal steps from `first` to `last`.

@@ -19,6 +19,7 @@ mod fit;
 mod raster;
 mod sheet;
 mod sources;
+mod sunlight;
 
 pub use fit::{FitNumber, FitParameter, FitProfile, fit_figures};
 pub use raster::WIDTH_PX;

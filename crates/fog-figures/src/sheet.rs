@@ -29,7 +29,11 @@ impl Sheet {
             let comma = if i + words.len() > 0 { "," } else { "" };
             // Numbers far from 1 in powers of ten, or a row grows by hundreds of zeros.
             let wide = *number != 0.0 && !(1e-5..1e15).contains(&number.abs());
-            let _ = if wide { write!(self.text, "{comma}{number:e}") } else { write!(self.text, "{comma}{number}") };
+            let _ = if wide {
+                write!(self.text, "{comma}{number:e}")
+            } else {
+                write!(self.text, "{comma}{number}")
+            };
         }
         self.text.push('\n');
     }

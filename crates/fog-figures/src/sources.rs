@@ -72,7 +72,8 @@ impl<'a> Sources<'a> {
         if let Some(table) = self.table.get() {
             return Ok(table);
         }
-        let settings = TableSettings { wavelengths_nm: vec![REFERENCE_NM], ..TableSettings::visible(self.model) };
+        let settings =
+            TableSettings { wavelengths_nm: vec![REFERENCE_NM], ..TableSettings::visible(self.model) };
         let table = build_table(self.model, &settings, &|_| ())?;
         Ok(self.table.get_or_init(|| table))
     }

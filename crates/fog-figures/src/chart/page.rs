@@ -41,19 +41,27 @@ impl Block {
 /// Blocks side by side, of equal width and one height.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    pub(crate) height: f64,
-    pub(crate) blocks: Vec<Block>,
+    height: f64,
+    blocks: Vec<Block>,
     /// One legend for the row; without, its labels belong to the page's legend.
-    pub(crate) own_legend: bool,
+    own_legend: bool,
+    /// Number of blocks that the width is divided by.
+    columns: usize,
 }
 
 impl Row {
     pub(crate) fn panels(height: f64, panels: impl IntoIterator<Item = Panel>) -> Self {
-        Self { height, blocks: panels.into_iter().map(Block::Panel).collect(), own_legend: false }
+        Self::blocks(height, panels.into_iter().map(Block::Panel).collect())
     }
 
-    pub(crate) fn of(height: f64, block: Block) -> Self {
-        Self { height, blocks: vec![block], own_legend: false }
+    pub(crate) fn blocks(height: f64, blocks: Vec<Block>) -> Self {
+        Self { height, columns: blocks.len(), blocks, own_legend: false }
+    }
+
+    /// Gives each block the width of a row of so many, so that a row that is not full stays aligned with others.
+    pub(crate) fn in_columns(mut self, columns: usize) -> Self {
+        self.columns = columns;
+        self
     }
 
     pub(crate) fn with_own_legend(mut self) -> Self {
@@ -87,7 +95,7 @@ impl Page<'_> {
             if row.own_legend {
                 y = draw_legend(&mut svg, y + 6.0, &row.keys());
             }
-            let count = row.blocks.len() as f64;
+            let count = row.columns as f64;
             let w = (inner - GAP * (count - 1.0)) / count;
             for (i, block) in row.blocks.iter().enumerate() {
                 block.draw(&mut svg, Rect { x: MARGIN + i as f64 * (w + GAP), y, w, h: row.height });

@@ -47,14 +47,6 @@ impl Series {
     }
 }
 
-/// Words at a place of the data.
-#[derive(Clone, Debug)]
-pub(crate) struct Note {
-    pub(crate) at: Point,
-    pub(crate) text: String,
-    pub(crate) anchor: Anchor,
-}
-
 /// A chart of lines and dots.
 #[derive(Clone, Debug)]
 pub(crate) struct Panel {
@@ -64,12 +56,11 @@ pub(crate) struct Panel {
     pub(crate) series: Vec<Series>,
     /// Thin dotted lines at values of x, with a word at their top.
     pub(crate) marks: Vec<(f64, String)>,
-    pub(crate) notes: Vec<Note>,
 }
 
 impl Panel {
     pub(crate) fn new(heading: &str, x: Axis, y: Axis, series: Vec<Series>) -> Self {
-        Self { heading: heading.to_owned(), x, y, series, marks: Vec::new(), notes: Vec::new() }
+        Self { heading: heading.to_owned(), x, y, series, marks: Vec::new() }
     }
 
     /// What a legend says about the series, each label once.
@@ -106,11 +97,6 @@ impl Panel {
         for (value, word) in &self.marks {
             if let Some(t) = self.x.place(*value) {
                 svg.text([plot.x + plot.w * t + 4.0, plot.y + 14.0], word, TICK - 1.0, MUTED, Anchor::Start);
-            }
-        }
-        for note in &self.notes {
-            if let Some(at) = place(note.at) {
-                svg.text(at, &note.text, TICK, INK, note.anchor);
             }
         }
         svg.frame(plot);

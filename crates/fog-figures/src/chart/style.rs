@@ -22,8 +22,13 @@ pub(crate) const CAPTION: f64 = 12.0;
 /// Colour for 0 ≤ t ≤ 1 of ordered things, from dark blue to ochre: five stops of the palette cividis (Nuñez, Anderton &
 /// Renslow, PLOS ONE 13, 2018), which looks alike to people with any colour vision; its light end is left out.
 pub(crate) fn ramp(t: f64) -> String {
-    const STOPS: [[f64; 3]; 5] =
-        [[0.0, 34.0, 78.0], [63.0, 77.0, 107.0], [110.0, 111.0, 115.0], [157.0, 146.0, 115.0], [209.0, 184.0, 88.0]];
+    const STOPS: [[f64; 3]; 5] = [
+        [0.0, 34.0, 78.0],
+        [63.0, 77.0, 107.0],
+        [110.0, 111.0, 115.0],
+        [157.0, 146.0, 115.0],
+        [209.0, 184.0, 88.0],
+    ];
     let x = t.clamp(0.0, 1.0) * 4.0;
     let i = (x as usize).min(3);
     let channel = |c: usize| (STOPS[i][c] + (STOPS[i + 1][c] - STOPS[i][c]) * (x - i as f64)).round() as u8;

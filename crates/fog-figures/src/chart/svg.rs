@@ -56,8 +56,11 @@ impl Stroke {
     }
 
     fn attributes(&self) -> String {
-        let dash =
-            if self.dash.is_empty() { String::new() } else { format!(r#" stroke-dasharray="{}""#, self.dash) };
+        let dash = if self.dash.is_empty() {
+            String::new()
+        } else {
+            format!(r#" stroke-dasharray="{}""#, self.dash)
+        };
         format!(r#"stroke="{}" stroke-width="{}"{dash}"#, self.colour, self.width)
     }
 }

@@ -11,12 +11,8 @@ use fog_optics::visibility::{PAPER_INTENSITIES_CD, allard_m};
 
 pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let (height, rows) = extinctions(sources)?;
-    let mut sheet = Sheet::new(&[
-        "intensity_cd",
-        "altitude_m",
-        "visibility_model_m",
-        "visibility_linear_gradient_m",
-    ]);
+    let mut sheet =
+        Sheet::new(&["intensity_cd", "altitude_m", "visibility_model_m", "visibility_linear_gradient_m"]);
     let (mut series, mut all) = (Vec::new(), Vec::new());
     for (i, intensity) in PAPER_INTENSITIES_CD.into_iter().enumerate().rev() {
         let (mut model, mut gradient) = (Vec::new(), Vec::new());
@@ -29,7 +25,9 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         }
         let colour = PALETTE[[2, 0, 1][i]];
         series.push(Series::line(&format!("{intensity} cd, model"), colour, model).width(2.6));
-        series.push(Series::line(&format!("{intensity} cd, linear gradient of σ"), colour, gradient).dashed("8 4"));
+        series.push(
+            Series::line(&format!("{intensity} cd, linear gradient of σ"), colour, gradient).dashed("8 4"),
+        );
     }
     let caption = format!(
         "Distance at which a light is just seen at night by Allard's law, E = I exp(−σV)/V², with a threshold of {:e} lx \
@@ -43,5 +41,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         Axis::linear("Altitude (m)", 0.0, height),
         series,
     );
-    Ok(figure("fig11", "Visibility of lights at night (Allard)", &caption, vec![Row::panels(460.0, [panel])], sheet))
+    Ok(figure(
+        "fig11",
+        "Visibility of lights at night (Allard)",
+        &caption,
+        vec![Row::panels(460.0, [panel])],
+        sheet,
+    ))
 }

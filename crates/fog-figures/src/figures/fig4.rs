@@ -38,9 +38,9 @@ pub(crate) const COLUMNS: [&str; 4] = ["fog", "altitude_m", "diameter_um", "dens
 
 /// The axis of densities that holds these surfaces, each sampled over diameter and relative altitude.
 pub(crate) fn density_axis(density: &dyn Fn(f64, f64) -> f64) -> Axis {
-    let values = steps(0.0, 1.0, 41).into_iter().flat_map(|zeta| {
-        steps(0.5, LAST_UM, 159).into_iter().map(move |d| density(d, zeta) * CM3)
-    });
+    let values = steps(0.0, 1.0, 41)
+        .into_iter()
+        .flat_map(|zeta| steps(0.5, LAST_UM, 159).into_iter().map(move |d| density(d, zeta) * CM3));
     Axis::from_zero("Droplets (cm⁻³ µm⁻¹)", values)
 }
 
@@ -59,7 +59,12 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
             Series::line(&format!("{d} µm"), &ramp(i as f64 / 7.0), points)
         })
         .collect();
-    let side = Panel::new("Side view: density by altitude at one diameter", Axis::linear("Altitude (m)", 0.0, height), z, side);
+    let side = Panel::new(
+        "Side view: density by altitude at one diameter",
+        Axis::linear("Altitude (m)", 0.0, height),
+        z,
+        side,
+    );
     let caption = format!(
         "Droplet spectra of advection fog {height} m thick, one curve each {:.3} m of altitude. After Fig. 4 of Kolářová, \
          Lachiver & Wilkie 2024: the right column, which is the model; the measured spectra of its left column are not \
@@ -67,9 +72,7 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         height / 26.0
     );
     let title = format!("Droplet spectra by altitude in {height} m of fog");
-    let rows = vec![
-        Row::of(470.0, Block::Ridges(ridges)),
-        Row::panels(300.0, [side]).with_own_legend(),
-    ];
+    let rows =
+        vec![Row::blocks(470.0, vec![Block::Ridges(ridges)]), Row::panels(300.0, [side]).with_own_legend()];
     Ok(figure("fig4", &title, &caption, rows, sheet))
 }

@@ -18,7 +18,8 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
             points.push([n * CM3, zeta * height]);
         }
         all.extend(points.iter().map(|p| p[0]));
-        series.push(Series::line(&format!("fog of {height} m"), PALETTE[i % PALETTE.len()], points).width(2.4));
+        series
+            .push(Series::line(&format!("fog of {height} m"), PALETTE[i % PALETTE.len()], points).width(2.4));
     }
     let panel = Panel::new(
         "",
@@ -29,5 +30,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let caption = "Number of droplets per cm³ (10⁶ per m³) by altitude, N(ζ, H) of the model's scaling matrix. After Fig. 5 \
                    of Kolářová, Lachiver & Wilkie 2024, which shows the model's curve for 180 m with measurements at \
                    Vandenberg that are not public.";
-    Ok(figure("fig5", "Number density of droplets by altitude", caption, vec![Row::panels(460.0, [panel])], sheet))
+    Ok(figure(
+        "fig5",
+        "Number density of droplets by altitude",
+        caption,
+        vec![Row::panels(460.0, [panel])],
+        sheet,
+    ))
 }

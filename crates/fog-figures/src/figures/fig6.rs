@@ -45,5 +45,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         "Droplet spectra of advection fog {height} m thick. After Fig. 6 of Kolářová, Lachiver & Wilkie 2024, which shows \
          the model's curves with fits to measurements at Arcata and Vandenberg that are not public."
     );
-    Ok(figure("fig6", &format!("Droplet spectra at two altitudes in {height} m of fog"), &caption, rows, sheet))
+    Ok(figure(
+        "fig6",
+        &format!("Droplet spectra at two altitudes in {height} m of fog"),
+        &caption,
+        rows,
+        sheet,
+    ))
 }

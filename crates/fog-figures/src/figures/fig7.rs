@@ -17,7 +17,7 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         let heading = format!("Fog of {height} m");
         Block::Ridges(surface(&heading, &label, height, axis.clone(), density, &mut sheet))
     });
-    let rows = vec![Row { height: 420.0, blocks: blocks.into(), own_legend: false }];
+    let rows = vec![Row::blocks(420.0, blocks.into())];
     let caption = "x";
     Ok(figure("fig7", "Two fogs compared", caption, rows, sheet))
 }

@@ -27,8 +27,7 @@ pub(crate) const COMPARED_ZETA: f64 = 25.0 / 260.0;
 
 pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let (height, rows) = extinctions(sources)?;
-    let mut sheet =
-        Sheet::new(&["altitude_m", "visibility_model_m", "visibility_linear_gradient_m"]);
+    let mut sheet = Sheet::new(&["altitude_m", "visibility_model_m", "visibility_linear_gradient_m"]);
     let (mut model, mut gradient) = (Vec::new(), Vec::new());
     for [altitude, ours, linear] in rows {
         let [ours, linear] = [koschmieder_m(ours), koschmieder_m(linear)];
@@ -36,7 +35,8 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         model.push([ours, altitude]);
         gradient.push([linear, altitude]);
     }
-    let (altitude, there) = (COMPARED_ZETA * height, |c: &[[f64; 2]]| c[(COMPARED_ZETA * 260.0).round() as usize][0]);
+    let (altitude, there) =
+        (COMPARED_ZETA * height, |c: &[[f64; 2]]| c[(COMPARED_ZETA * 260.0).round() as usize][0]);
     let caption = format!(
         "Horizontal visibility by Koschmieder's law with a contrast threshold of 2 %, V = 3.912/σ at 550 nm, in advection fog \
          {height} m thick and in a layer whose σ rises linearly from the model's least to its greatest value. At {altitude:.0} m: \
@@ -54,5 +54,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
             Series::line("linear gradient of σ", PALETTE[0], gradient).dashed("8 4").width(2.4),
         ],
     );
-    Ok(figure("fig9", "Visibility of objects by day (Koschmieder)", &caption, vec![Row::panels(460.0, [panel])], sheet))
+    Ok(figure(
+        "fig9",
+        "Visibility of objects by day (Koschmieder)",
+        &caption,
+        vec![Row::panels(460.0, [panel])],
+        sheet,
+    ))
 }

@@ -1,0 +1,125 @@
+//! Phase functions by angle, wavelength and altitude.
+
+use super::figure;
+use crate::chart::style::{INK, PALETTE};
+use crate::chart::{Axis, Panel, Row, Series};
+use crate::sheet::Sheet;
+use crate::{Figure, FiguresError, Sources};
+use fog_core::math::{PI, f64::acos};
+use fog_core::phase_grid;
+use fog_optics::table::{TableSettings, build_table};
+
+const ZETAS: [f64; 3] = [0.0, 0.5, 1.0];
+const WAVELENGTHS_NM: [f64; 4] = [450.0, 650.0, 905.0, 1550.0];
+/// Where the other one varies.
+const MIDDLE_ZETA: usize = 1;
+const GREEN_NM: f64 = 550.0;
+/// The paper's asymmetry factor (Sec. 5.4).
+const HG_G: f64 = 0.83;
+/// End of the forward zoom in degrees.
+const FORWARD_DEG: f64 = 5.0;
+
+/// One curve: label, colour, and its values in 1/sr at the nodes.
+struct Curve {
+    label: String,
+    colour: &'static str,
+    values: Vec<f64>,
+}
+
+pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
+    let model = sources.model();
+    let mut wavelengths_nm = WAVELENGTHS_NM.to_vec();
+    wavelengths_nm.push(GREEN_NM);
+    wavelengths_nm.sort_by(f64::total_cmp);
+    let settings = TableSettings {
+        zeta: ZETAS.to_vec(),
+        wavelengths_nm: wavelengths_nm.clone(),
+        diameters: *model.diameters(),
+    };
+    let table = build_table(model, &settings, &|_| ())?;
+    let view = table.view();
+    let column = |zeta: usize, nm: f64| -> Vec<f64> {
+        let l = wavelengths_nm.iter().position(|&w| w == nm).unwrap_or(0);
+        (0..phase_grid::NODES).map(|i| f64::from(view.phase_node(zeta, l, i))).collect()
+    };
+    let cosines = phase_grid::cosines();
+    let angles: Vec<f64> = cosines.iter().map(|&c| acos(c.clamp(-1.0, 1.0)) * 180.0 / PI).collect();
+
+    let by_altitude: Vec<Curve> = (ZETAS.iter().enumerate())
+        .map(|(i, zeta)| Curve {
+            label: format!("ζ = {zeta}, 550 nm"),
+            colour: PALETTE[[0, 2, 1][i]],
+            values: column(i, GREEN_NM),
+        })
+        .collect();
+    let by_wavelength: Vec<Curve> = (WAVELENGTHS_NM.iter().enumerate())
+        .map(|(i, &nm)| Curve {
+            label: format!("{nm} nm, ζ = {}", ZETAS[MIDDLE_ZETA]),
+            colour: PALETTE[[0, 1, 4, 3][i]],
+            values: column(MIDDLE_ZETA, nm),
+        })
+        .collect();
+    let hg = Curve {
+        label: format!("Henyey–Greenstein, g = {HG_G}"),
+        colour: INK,
+        values: cosines.iter().map(|&c| henyey_greenstein(HG_G, c)).collect(),
+    };
+
+    let mut columns = vec!["angle_deg".to_owned()];
+    columns.extend(ZETAS.iter().map(|zeta| format!("p_zeta_{zeta}_550_nm_1_sr")));
+    columns.extend(WAVELENGTHS_NM.iter().map(|nm| format!("p_zeta_{}_{nm}_nm_1_sr", ZETAS[MIDDLE_ZETA])));
+    columns.push("p_henyey_greenstein_1_sr".to_owned());
+    let mut sheet = Sheet::new(&columns.iter().map(String::as_str).collect::<Vec<_>>());
+    for (i, angle) in angles.iter().enumerate() {
+        let mut row = vec![*angle];
+        row.extend(by_altitude.iter().chain(&by_wavelength).chain([&hg]).map(|c| c.values[i]));
+        sheet.row(&row);
+    }
+
+    let panel = |heading: &str, curves: &[Curve], last_deg: f64| {
+        let mut all: Vec<Series> = curves.iter().map(|c| series(c, &angles, last_deg)).collect();
+        all.push(series(&hg, &angles, last_deg).dashed("7 4").width(1.5));
+        let shown = angles.iter().take_while(|&&a| a <= last_deg).count();
+        let values = curves.iter().flat_map(|c| c.values[..shown].iter().copied());
+        let low_end = if last_deg < 90.0 { 0.1 } else { 1e-3 };
+        let y = Axis::decades("Phase function (1/sr)", values.chain([low_end]));
+        let x = Axis::linear("Scattering angle (°)", 0.0, last_deg);
+        let x = if last_deg > 90.0 { x.ticked(&[0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0]) } else { x };
+        Panel::new(heading, x, y, all)
+    };
+    let rows = vec![
+        Row::panels(
+            330.0,
+            [
+                panel("By altitude", &by_altitude, 180.0),
+                panel("By altitude: forward peak", &by_altitude, FORWARD_DEG),
+            ],
+        )
+        .with_own_legend(),
+        Row::panels(
+            330.0,
+            [
+                panel("By wavelength", &by_wavelength, 180.0),
+                panel("By wavelength: forward peak", &by_wavelength, FORWARD_DEG),
+            ],
+        )
+        .with_own_legend(),
+    ];
+    let caption = "Phase functions of the model's droplet spectra by Mie series of water, normalised to ∫p dΩ = 1, at relative \
+                   altitudes ζ = z/H. Dashed: Henyey & Greenstein's function with the paper's g (Kolářová, Lachiver & Wilkie \
+                   2024, Sec. 5.4), which lacks the forward peak, the fogbow near 140° and the glory at 180°.";
+    Ok(figure("phase", "Phase functions of advection fog", caption, rows, sheet))
+}
+
+fn series(curve: &Curve, angles: &[f64], last_deg: f64) -> Series {
+    let points = angles.iter().zip(&curve.values).map(|(&a, &p)| [a, p]);
+    // One point beyond the end, so that the line reaches it.
+    let shown = angles.iter().take_while(|&&a| a <= last_deg).count() + 1;
+    Series::line(&curve.label, curve.colour, points.take(shown).collect()).width(1.7)
+}
+
+/// Henyey & Greenstein's phase function in 1/sr (1941).
+fn henyey_greenstein(g: f64, cosine: f64) -> f64 {
+    let t = 1.0 + g * g - 2.0 * g * cosine;
+    (1.0 - g * g) / (4.0 * PI * t * t.sqrt())
+}
