@@ -92,9 +92,12 @@ impl AdvectionModel {
         if !(0.0..=1.0).contains(&zeta) {
             return 0.0;
         }
-        let sum =
-            (self.number_density.iter().rev()).fold(0.0, |sum, row| sum * zeta + polynomial(row, height_m));
-        (sum * self.number_density_scale).max(0.0)
+        polynomial(&self.number_polynomial(height_m), zeta).max(0.0)
+    }
+
+    /// Coefficients over ζ of the number density in 1/m³ at a fog height in m.
+    pub(crate) fn number_polynomial(&self, height_m: f64) -> Vec<f64> {
+        self.number_density.iter().map(|row| self.number_density_scale * polynomial(row, height_m)).collect()
     }
 
     /// Density of droplets over diameter, n(d, z) in m⁻³ µm⁻¹ (Eq. 1), for a diameter in µm and a fog height in m.

@@ -16,7 +16,10 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+mod csv;
 pub mod distribution;
+pub mod droplets;
 pub mod error;
 pub mod layer;
 pub mod layer_csv;
@@ -24,7 +27,9 @@ pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
 pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;
