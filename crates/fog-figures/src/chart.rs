@@ -15,3 +15,4 @@ pub(crate) use page::{Block, Page, Row};
 pub(crate) use panel::{Panel, Series};
 pub(crate) use ridges::Ridges;
 pub(crate) use strips::Strips;
+pub(crate) use text::scientific;

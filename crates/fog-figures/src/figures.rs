@@ -10,6 +10,7 @@ mod fig9;
 mod phase;
 mod phenomena;
 mod profiles;
+mod surface;
 mod wavelengths;
 
 use crate::chart::{Page, Row};

@@ -132,11 +132,11 @@ fn spectra(height_m: f64, profiles: &[FitProfile<'_>]) -> Figure {
             &format!("{} m", profile.altitude_m),
             Axis::from_zero(x_label, [0.95 * last_um]),
             Axis::from_zero(y_label, values),
-            vec![
+            drawn([
                 Series::line("fit at this altitude", PALETTE[0], scaled(profile.fitted)),
                 Series::line("general model", PALETTE[1], scaled(profile.model)).dashed("6 4"),
                 Series::dots("measured", PALETTE[2], scaled(profile.measured)),
-            ],
+            ]),
         ));
     }
     let rows = panels.chunks(COLUMNS).map(|row| Row::panels(205.0, row.iter().cloned()).in_columns(COLUMNS));
@@ -146,6 +146,11 @@ fn spectra(height_m: f64, profiles: &[FitProfile<'_>]) -> Figure {
     );
     let title = format!("Measured and fitted spectra, fog of {height_m} m");
     figure(&format!("spectra_{height_m}"), &title, &caption, rows.collect(), sheet)
+}
+
+/// The series that have points.
+fn drawn(series: impl IntoIterator<Item = Series>) -> Vec<Series> {
+    series.into_iter().filter(|s| !s.is_empty()).collect()
 }
 
 /// c0 + c1 x + c2 x² + …

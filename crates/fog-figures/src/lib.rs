@@ -71,6 +71,9 @@ pub enum FiguresError {
     /// The fog model refused a value.
     #[error(transparent)]
     Optics(#[from] fog_optics::error::OpticsError),
+    /// A phase function refused its parameters.
+    #[error(transparent)]
+    Phase(#[from] fog_core::phase::PhaseError),
     /// The rasteriser refused the picture.
     #[error("cannot rasterise a figure: {0}")]
     Raster(String),

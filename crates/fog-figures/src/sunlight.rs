@@ -4,7 +4,7 @@ use crate::FiguresError;
 use fog_core::colour::{Observer, luminance, srgb_encode};
 use fog_core::math::{
     PI,
-    f64::{acos, cos, pow, sin},
+    f64::{acos, pow},
 };
 use fog_core::phase_grid;
 use fog_optics::distribution::DiameterGrid;
@@ -19,7 +19,7 @@ pub(crate) const EFFECTIVE_VARIANCE: f64 = 0.01;
 /// the eye's wavelengths this is enough.
 const MOST_DIAMETERS: usize = 320;
 /// Product of diameters (µm) and their number that a spectrum may have: the cost of its series grows with it.
-const MOST_WORK_UM: f64 = 80_000.0;
+const MOST_WORK_UM: f64 = 160_000.0;
 
 /// Linear sRGB of light scattered by a droplet, per unit of scattering and steradian, at ascending angles in degrees.
 #[derive(Debug)]
@@ -29,12 +29,8 @@ pub(crate) struct Scattered {
 
 impl Scattered {
     /// Sunlight (taken as D65, so that white is R = G = B) scattered once by a narrow gamma spectrum of droplets of effective
-    /// diameter `diameter_um`, as a mean over the sun's disc, at `angles_deg`.
-    pub(crate) fn new(
-        diameter_um: f64,
-        angles_deg: &[f64],
-        observer: &Observer,
-    ) -> Result<Self, FiguresError> {
+    /// diameter `diameter_um`, at the angles of `view`.
+    pub(crate) fn new(diameter_um: f64, view: &SunView, observer: &Observer) -> Result<Self, FiguresError> {
         let spectrum = SizeDistribution::gamma(0.5 * diameter_um, EFFECTIVE_VARIANCE)?;
         let [first, last] = spectrum.grid().range_um();
         let count = MOST_DIAMETERS.min((MOST_WORK_UM / diameter_um) as usize);
@@ -45,18 +41,10 @@ impl Scattered {
 
         // Weighted with C_sca, relative to its mean: large drops scatter all colours alike, small ones do not.
         let mean: f64 = parts.c_sca_m2.iter().sum::<f64>() / parts.c_sca_m2.len() as f64;
-        let nodes_deg: Vec<f64> =
-            phase_grid::cosines().iter().map(|c| acos(c.clamp(-1.0, 1.0)) * 180.0 / PI).collect();
-        let disc = disc();
         let smoothed: Vec<Vec<f64>> = (parts.phase.chunks_exact(phase_grid::NODES).zip(&parts.c_sca_m2))
-            .map(|(phase, c_sca)| {
-                let scale = c_sca / (mean * disc.len() as f64);
-                (angles_deg.iter())
-                    .map(|&a| disc.iter().map(|&o| at(&nodes_deg, phase, seen_at(a, o))).sum::<f64>() * scale)
-                    .collect()
-            })
+            .map(|(phase, c_sca)| view.means(phase).map(|p| p * c_sca / mean).collect())
             .collect();
-        let rgb = (0..angles_deg.len())
+        let rgb = (0..view.angles.len())
             .map(|i| {
                 observer.rgb_of(|nm| {
                     let x = (f64::from(nm) - 380.0) * 15.0 / 400.0;
@@ -75,31 +63,54 @@ impl Scattered {
     }
 }
 
-/// Points of the sun's disc in degrees from its centre, of equal area each.
-fn disc() -> Vec<[f64; 2]> {
-    let mut points = Vec::new();
-    for ring in 0..4 {
-        let r = SUN_RADIUS_DEG * ((f64::from(ring) + 0.5) / 4.0).sqrt();
-        for k in 0..9 {
-            let angle = 2.0 * PI * (f64::from(k) + 0.25 * f64::from(ring)) / 9.0;
-            points.push([r * cos(angle), r * sin(angle)]);
-        }
+/// Means of phase functions over the sun's disc at given scattering angles of its centre.
+#[derive(Debug)]
+pub(crate) struct SunView {
+    /// For each angle, interval of the phase grid and weights of its ends.
+    angles: Vec<Vec<(usize, [f64; 2])>>,
+}
+
+impl SunView {
+    /// At scattering angles in degrees, 0 to 180.
+    ///
+    /// The share of the disc at a distance from the axis of 0° or of 180°, whichever is nearer, is that of a plane; it is
+    /// exact enough near the axes, and away from them the disc's extent across hardly changes the scattering angle.
+    pub(crate) fn new(angles_deg: &[f64]) -> Self {
+        const PARTS: usize = 48;
+        let nodes: Vec<f64> =
+            phase_grid::cosines().iter().map(|c| acos(c.clamp(-1.0, 1.0)) * 180.0 / PI).collect();
+        let weights_at = |&angle: &f64| {
+            let centre = angle.min(180.0 - angle);
+            // Equal steps of the root of the distance, because phase functions are steep near the axes.
+            let (low, high) = ((centre - SUN_RADIUS_DEG).max(0.0).sqrt(), (centre + SUN_RADIUS_DEG).sqrt());
+            let parts: Vec<[f64; 2]> = (0..PARTS)
+                .map(|i| {
+                    let root = low + (high - low) * (i as f64 + 0.5) / PARTS as f64;
+                    let distance = root * root;
+                    let chord = distance * distance + centre * centre - SUN_RADIUS_DEG * SUN_RADIUS_DEG;
+                    let arc =
+                        acos((chord / (2.0 * distance * centre).max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0));
+                    [distance, distance * arc * root]
+                })
+                .collect();
+            let sum: f64 = parts.iter().map(|p| p[1]).sum();
+            (parts.iter())
+                .map(|&[distance, weight]| {
+                    let seen = if angle <= 90.0 { distance } else { 180.0 - distance };
+                    let i = nodes.partition_point(|&a| a <= seen).clamp(1, nodes.len() - 1) - 1;
+                    let t = ((seen - nodes[i]) / (nodes[i + 1] - nodes[i])).clamp(0.0, 1.0);
+                    (i, [weight / sum * (1.0 - t), weight / sum * t])
+                })
+                .collect()
+        };
+        Self { angles: angles_deg.iter().map(weights_at).collect() }
     }
-    points
-}
 
-/// Scattering angle of light from a point of the disc where that of the disc's centre is `angle_deg`; plane geometry around
-/// the nearer of 0° and 180°, exact where the disc's extent across matters.
-fn seen_at(angle_deg: f64, [along, across]: [f64; 2]) -> f64 {
-    let from_axis = |a: f64| ((a + along) * (a + along) + across * across).sqrt();
-    if angle_deg <= 90.0 { from_axis(angle_deg) } else { 180.0 - from_axis(180.0 - angle_deg) }
-}
-
-/// Linear interpolation at an angle between ascending ones.
-fn at(angles: &[f64], values: &[f64], angle: f64) -> f64 {
-    let i = angles.partition_point(|&a| a <= angle).clamp(1, angles.len() - 1);
-    let t = ((angle - angles[i - 1]) / (angles[i] - angles[i - 1])).clamp(0.0, 1.0);
-    values[i - 1] + (values[i] - values[i - 1]) * t
+    /// Means of a phase function that is given at the nodes of the phase grid.
+    fn means(&self, phase: &[f64]) -> impl Iterator<Item = f64> {
+        (self.angles.iter())
+            .map(|weights| weights.iter().map(|&(i, [a, b])| a * phase[i] + b * phase[i + 1]).sum())
+    }
 }
 
 /// Colours of a strip for linear sRGB values: the brightest is given luminance 1 and the others that of their share to the

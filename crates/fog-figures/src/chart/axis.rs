@@ -37,11 +37,10 @@ impl Axis {
         Self { label: label.to_owned(), range: [low, high], scale: Scale::Linear, ticks, minor: Vec::new() }
     }
 
-    /// A linear axis from 0 to a round number above the greatest of `values`.
+    /// A linear axis from 0 to a little above the greatest of `values`.
     pub(crate) fn from_zero(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let top = values.into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
-        let (step, _) = nice_step(if top > 0.0 { top / 6.0 } else { 1.0 });
-        Self::linear(label, 0.0, ((1.04 * top / step).ceil() * step).max(step))
+        Self::linear(label, 0.0, if top > 0.0 { 1.06 * top } else { 1.0 })
     }
 
     /// A linear axis over the range of `values` and a margin.
@@ -93,11 +92,13 @@ impl Axis {
         Self { label: label.to_owned(), range: [low, high], scale: Scale::Log, ticks, minor }
     }
 
-    /// A logarithmic axis over whole decades that hold the positive ones of `values`.
-    pub(crate) fn decades(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
+    /// A logarithmic axis that holds the positive ones of `values`, its ends at 1, 2 or 5 times a power of ten.
+    pub(crate) fn log_over(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let [low, high] = extent(values.into_iter().filter(|v| *v > 0.0));
-        let (first, last) = (log10(low).floor() as i32, log10(high).ceil() as i32);
-        Self::log(label, ten_to(first), ten_to(last.max(first + 1)))
+        let (first, last) = (ten_to(log10(low).floor() as i32), ten_to(log10(high).floor() as i32));
+        let below = [5.0, 2.0].map(|d| d * first).into_iter().find(|&v| v <= low).unwrap_or(first);
+        let above = [1.0, 2.0, 5.0].map(|d| d * last).into_iter().find(|&v| v >= high && v > below);
+        Self::log(label, below, above.unwrap_or(10.0 * last))
     }
 
     /// The axis with these ticks in the place of its own.
@@ -165,10 +166,10 @@ mod tests {
 
     #[test]
     fn log_ticks_are_decades() {
-        assert_eq!(
-            labels(&Axis::decades("", [3e-5, 0.0, 20.0])),
-            ["10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹", "10²"]
-        );
+        let axis = Axis::log_over("", [3e-5, 0.0, 15.0]);
+        assert_eq!(labels(&axis), ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
+        assert!((axis.range[0] - 2e-5).abs() < 1e-18 && axis.range[1] == 20.0, "{axis:?}");
+        assert_eq!(Axis::log_over("", [1.0, 1.0]).range, [1.0, 2.0]);
         assert_eq!(labels(&Axis::log("", 0.1, 1000.0)), ["0.1", "1", "10", "100", "1000"]);
         assert_eq!(labels(&Axis::log("", 300.0, 2500.0)), ["500", "1000", "2000"]);
     }

@@ -29,6 +29,10 @@ impl Series {
         Self { label: (!label.is_empty()).then(|| label.to_owned()), points, mark }
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
     /// The line in dashes.
     pub(crate) fn dashed(self, dash: &'static str) -> Self {
         self.restroked(|stroke| stroke.dash = dash)

@@ -24,9 +24,14 @@ impl Strips {
         for (i, (label, colours)) in self.strips.iter().enumerate() {
             let y = plot.y + i as f64 * pitch;
             svg.text([plot.x - 8.0, y + 0.5 * pitch + 3.0], label, TICK, INK, Anchor::End);
-            let w = plot.w / colours.len() as f64;
+            let step = plot.w / colours.len() as f64;
             for (k, colour) in colours.iter().enumerate() {
-                svg.cell(Rect { x: plot.x + k as f64 * w, y, w, h: pitch - 4.0 }, colour);
+                if k > 0 && colours[k - 1] == *colour {
+                    continue;
+                }
+                // Each colour reaches to the end and the next ones cover it, which leaves no seams.
+                let from = k as f64 * step;
+                svg.cell(Rect { x: plot.x + from, y, w: plot.w - from, h: pitch - 4.0 }, colour);
             }
         }
         let tick = Stroke::new(FRAME, 1.0);

@@ -19,15 +19,15 @@ pub(crate) const LABEL: f64 = 14.0;
 pub(crate) const TICK: f64 = 12.5;
 pub(crate) const CAPTION: f64 = 12.0;
 
-/// Colour for 0 ≤ t ≤ 1 of ordered things, from dark blue to ochre: five stops of the palette cividis (Nuñez, Anderton &
-/// Renslow, PLOS ONE 13, 2018), which looks alike to people with any colour vision; its light end is left out.
+/// Colour for 0 ≤ t ≤ 1 of ordered things, from dark violet to light green: stops of the palette viridis (Smith & van der
+/// Walt 2015), which ascends in lightness for people with any colour vision; its yellow end is left out.
 pub(crate) fn ramp(t: f64) -> String {
     const STOPS: [[f64; 3]; 5] = [
-        [0.0, 34.0, 78.0],
-        [63.0, 77.0, 107.0],
-        [110.0, 111.0, 115.0],
-        [157.0, 146.0, 115.0],
-        [209.0, 184.0, 88.0],
+        [68.0, 1.0, 84.0],
+        [62.0, 74.0, 137.0],
+        [38.0, 130.0, 142.0],
+        [53.0, 183.0, 121.0],
+        [157.0, 208.0, 53.0],
     ];
     let x = t.clamp(0.0, 1.0) * 4.0;
     let i = (x as usize).min(3);

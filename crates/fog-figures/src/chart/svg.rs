@@ -151,7 +151,7 @@ impl Svg {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let text = escape(text);
+        let text = subscripted(&escape(text), size);
         let _ = writeln!(
             self.body,
             r#"<text {place} font-size="{size}" fill="{colour}" text-anchor="{anchor}">{text}</text>"#
@@ -190,6 +190,22 @@ impl Svg {
             b = self.body
         )
     }
+}
+
+/// Letters and digits after `_` as a subscript: μ_L.
+fn subscripted(text: &str, size: f64) -> String {
+    let mut pieces = text.split('_');
+    let mut out = pieces.next().unwrap_or_default().to_owned();
+    let (small, down) = (0.75 * size, 0.22 * size);
+    for piece in pieces {
+        let end = piece.find(|c: char| !c.is_alphanumeric()).unwrap_or(piece.len());
+        let (low, rest) = piece.split_at(end);
+        let _ = write!(out, r#"<tspan dy="{down:.2}" font-size="{small:.2}">{low}</tspan>"#);
+        if !rest.is_empty() {
+            let _ = write!(out, r#"<tspan dy="-{down:.2}">{rest}</tspan>"#);
+        }
+    }
+    out
 }
 
 fn escape(text: &str) -> String {

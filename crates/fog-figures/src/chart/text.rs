@@ -52,6 +52,15 @@ pub(crate) fn superscript(n: i32) -> String {
         .collect()
 }
 
+/// A number as 8·10⁻⁷.
+pub(crate) fn scientific(number: f64) -> String {
+    let text = format!("{number:e}");
+    match text.split_once('e').and_then(|(m, e)| Some((m, e.parse().ok()?))) {
+        Some((mantissa, exponent)) => format!("{mantissa}·10{}", superscript(exponent)),
+        None => text,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,6 +77,7 @@ mod tests {
     #[test]
     fn superscripts_are_signed() {
         assert_eq!(superscript(-12), "⁻¹²");
+        assert_eq!(scientific(8e-7), "8·10⁻⁷");
         assert_eq!(superscript(405), "⁴⁰⁵");
     }
 }

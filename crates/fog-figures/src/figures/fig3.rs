@@ -39,8 +39,8 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let caption = format!(
         "Advection fog of {height} m at {} m (ζ = {ZETA}): L = {:.3}·10⁸ m⁻³, μ_L = {:.2}, σ_L = {:.2}; G = {:.3}·10⁸ m⁻³, \
          μ_G = {:.2} µm, σ_G = {:.2} µm. After Fig. 3 of Kolářová, Lachiver & Wilkie 2024 (Eq. 1–3); the measurements \
-         in it are not public. The paper prints L = 1.99 and G = 3.89·10⁸ m⁻³; the model divides both by 3 where that makes \
-         a fog of measured water and visibility (see the model file).",
+         in it are not public. The paper prints L = 1.99·10⁸ and G = 3.89·10⁸ m⁻³; tables/advection/arcata.yaml says why the \
+         shipped model has a third of them.",
         ZETA * height,
         l / 1e8,
         shape.mu_l,

@@ -51,7 +51,7 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         Axis::linear("Altitude (m)", 0.0, height),
         vec![
             Series::line("model", PALETTE[1], model).width(2.8),
-            Series::line("linear gradient of σ", PALETTE[0], gradient).dashed("8 4").width(2.4),
+            Series::line("linear gradient", PALETTE[0], gradient).dashed("8 4").width(2.4),
         ],
     );
     Ok(figure(

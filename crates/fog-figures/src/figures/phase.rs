@@ -6,6 +6,7 @@ use crate::chart::{Axis, Panel, Row, Series};
 use crate::sheet::Sheet;
 use crate::{Figure, FiguresError, Sources};
 use fog_core::math::{PI, f64::acos};
+use fog_core::phase::HenyeyGreenstein;
 use fog_core::phase_grid;
 use fog_optics::table::{TableSettings, build_table};
 
@@ -59,10 +60,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
             values: column(MIDDLE_ZETA, nm),
         })
         .collect();
+    let henyey_greenstein = HenyeyGreenstein::new(HG_G)?;
     let hg = Curve {
         label: format!("Henyey–Greenstein, g = {HG_G}"),
         colour: INK,
-        values: cosines.iter().map(|&c| henyey_greenstein(HG_G, c)).collect(),
+        values: phase_grid::nodes().iter().map(|&m| henyey_greenstein.eval(m)).collect(),
     };
 
     let mut columns = vec!["angle_deg".to_owned()];
@@ -82,7 +84,7 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
         let shown = angles.iter().take_while(|&&a| a <= last_deg).count();
         let values = curves.iter().flat_map(|c| c.values[..shown].iter().copied());
         let low_end = if last_deg < 90.0 { 0.1 } else { 1e-3 };
-        let y = Axis::decades("Phase function (1/sr)", values.chain([low_end]));
+        let y = Axis::log_over("Phase function (1/sr)", values.chain([low_end]));
         let x = Axis::linear("Scattering angle (°)", 0.0, last_deg);
         let x = if last_deg > 90.0 { x.ticked(&[0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0]) } else { x };
         Panel::new(heading, x, y, all)
@@ -116,10 +118,4 @@ fn series(curve: &Curve, angles: &[f64], last_deg: f64) -> Series {
     // One point beyond the end, so that the line reaches it.
     let shown = angles.iter().take_while(|&&a| a <= last_deg).count() + 1;
     Series::line(&curve.label, curve.colour, points.take(shown).collect()).width(1.7)
-}
-
-/// Henyey & Greenstein's phase function in 1/sr (1941).
-fn henyey_greenstein(g: f64, cosine: f64) -> f64 {
-    let t = 1.0 + g * g - 2.0 * g * cosine;
-    (1.0 - g * g) / (4.0 * PI * t * t.sqrt())
 }

@@ -4,7 +4,7 @@ use super::{figure, steps};
 use crate::chart::style::PALETTE;
 use crate::chart::{Axis, Block, Panel, Row, Series, Strips};
 use crate::sheet::Sheet;
-use crate::sunlight::{EFFECTIVE_VARIANCE, Scattered, strip};
+use crate::sunlight::{EFFECTIVE_VARIANCE, Scattered, SunView, strip};
 use crate::{Figure, FiguresError, Sources};
 use fog_core::colour::Observer;
 
@@ -25,9 +25,10 @@ const BOWS_DEG: [f64; 2] = [130.0, 180.0];
 pub(crate) fn draw(_: &Sources<'_>) -> Result<Figure, FiguresError> {
     let observer = Observer::new();
     let angles = steps(0.0, 180.0, 1801);
+    let view = SunView::new(&angles);
     let mut sizes = Vec::new();
     for (diameter_um, name) in SIZES {
-        sizes.push((diameter_um, name, Scattered::new(diameter_um, &angles, &observer)?));
+        sizes.push((diameter_um, name, Scattered::new(diameter_um, &view, &observer)?));
     }
 
     let columns = ["diameter_um", "angle_deg", "luminance_1_sr", "red_1_sr", "green_1_sr", "blue_1_sr"];
@@ -52,7 +53,7 @@ pub(crate) fn draw(_: &Sources<'_>) -> Result<Figure, FiguresError> {
         Panel::new(
             heading,
             Axis::linear("Scattering angle (°)", first, last),
-            Axis::decades("Scattered light (1/sr)", all),
+            Axis::log_over("Scattered light (1/sr)", all),
             series,
         )
     };
@@ -91,7 +92,9 @@ pub(crate) fn draw(_: &Sources<'_>) -> Result<Figure, FiguresError> {
          {EFFECTIVE_VARIANCE}), by Mie series of water at 16 wavelengths, averaged over the sun's disc; the sun is D65, the eye \
          CIE 1931. Curves: luminance, by which 1/sr is a phase function seen in white light. Colours: sRGB with the hue and \
          saturation of the light; the brightest of each strip is set to white and brightness is compressed (power 0.3 for the \
-         corona, 0.8 for bows). As drops shrink the rainbow becomes a broad, white fogbow; the rings of corona and glory grow."
+         corona, 0.8 for bows). As \
+         drops shrink the rainbow becomes a broad, white fogbow, and the rings of corona and glory grow; rain has no corona, \
+         its curve shows the sun's own disc."
     );
     Ok(figure("phenomena", "Rainbow, fogbow, glory and corona by droplet size", &caption, rows, sheet))
 }

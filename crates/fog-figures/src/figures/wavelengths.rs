@@ -5,8 +5,13 @@ use crate::chart::style::ramp;
 use crate::chart::{Axis, Panel, Row, Series};
 use crate::sheet::Sheet;
 use crate::{Figure, FiguresError, Sources};
+use fog_optics::distribution::DiameterGrid;
+use fog_optics::size::SizeDistribution;
 
-const ZETAS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+const ZETAS: [f64; 4] = [0.0, 0.5, 0.75, 1.0];
+/// Diameters of a sum: more than the tables have, and at equal ratios, so that the sharp resonances of single droplets do not
+/// recur from wavelength to wavelength.
+const DIAMETERS: usize = 1200;
 /// Lines of lidars, in nm.
 const LIDARS_NM: [f64; 2] = [905.0, 1550.0];
 
@@ -15,9 +20,11 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let mut sheet =
         Sheet::new(&["height_m", "altitude_m", "wavelength_nm", "sigma_t_1_m", "sigma_s_1_m", "albedo", "g"]);
     let mut curves = [const { Vec::new() }; 3];
+    let [first_um, last_um] = model.diameters().range_um();
     for zeta in ZETAS {
         let n = model.number_density_1_m3(zeta, height);
-        let spectrum = model.distribution(zeta);
+        let grid = DiameterGrid::geometric(first_um, last_um, DIAMETERS)?;
+        let spectrum = SizeDistribution::lognormal_gaussian(model.shape(zeta), grid)?;
         let mut points = [const { Vec::new() }; 3];
         for nm in steps(300.0, 2500.0, 89) {
             let optics = spectrum.optics(nm)?;
@@ -53,8 +60,8 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let [first, second, third] = panels;
     let rows = vec![Row::panels(320.0, [first, second]), Row::panels(320.0, [third])];
     let caption = format!(
-        "Advection fog {height} m thick at five relative altitudes ζ, from the model's droplet spectra by Mie series of water \
-         at 25 °C (Hale & Querry 1973). Dotted: the wavelengths of common lidars."
+        "Advection fog {height} m thick at four relative altitudes ζ, from the model's droplet spectra by Mie series of water \
+         at 25 °C. Dotted: the wavelengths of common lidars."
     );
     Ok(figure("wavelengths", &format!("Optics of {height} m of fog by wavelength"), &caption, rows, sheet))
 }
