@@ -191,7 +191,7 @@ fn draw_parameters(parameters: &[FitParameter<'_>]) -> Figure {
         let values = parameter.fits.iter().map(|f| f[2]).chain(curve.iter().map(|p| p[1]));
         let y = Axis::over(parameter.label, values);
         series.push(Series::line("polynomial", PALETTE[1], curve).width(2.4));
-        panels.push(Panel::new("", Axis::linear("Relative altitude ζ", 0.0, 1.0), y, series));
+        panels.push(Panel::new("", Axis::linear("Relative altitude ζ", -0.03, 1.03), y, series));
     }
     let rows = panels.chunks(2).map(|row| Row::panels(270.0, row.iter().cloned()).in_columns(2)).collect();
     let caption = "Parameters of the spectra over relative altitude ζ = z/H: values fitted at single altitudes of each fog, and the \

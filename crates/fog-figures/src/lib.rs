@@ -20,6 +20,8 @@ mod raster;
 mod sheet;
 mod sources;
 mod sunlight;
+#[cfg(test)]
+mod tests;
 
 pub use fit::{FitNumber, FitParameter, FitProfile, fit_figures};
 pub use raster::WIDTH_PX;

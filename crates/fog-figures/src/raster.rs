@@ -5,7 +5,7 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 /// DejaVu Sans reduced to the characters that figures use; its licence is beside it.
-const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
+pub(crate) const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 
 /// Width of PNG pictures in pixels.
 pub const WIDTH_PX: u32 = 1600;

@@ -136,3 +136,34 @@ pub(crate) fn strip(rgb: &[[f64; 3]], contrast: f64) -> Vec<String> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_over_the_disc_keep_what_does_not_vary_and_spread_what_does() {
+        let view = SunView::new(&[0.0, 0.1, 0.2666, 90.0, 138.0, 180.0]);
+        assert!(view.means(&[3.0; phase_grid::NODES]).all(|p| (p - 3.0).abs() < 1e-12));
+        // A function that is the angle from forward: over the disc at the pole its mean is 2/3 of the radius.
+        let angle: Vec<f64> =
+            phase_grid::cosines().iter().map(|c| acos(c.clamp(-1.0, 1.0)) * 180.0 / PI).collect();
+        let means: Vec<f64> = view.means(&angle).collect();
+        assert!((means[0] / (2.0 / 3.0 * SUN_RADIUS_DEG) - 1.0).abs() < 2e-3, "{means:?}");
+        assert!((means[3] - 90.0).abs() < 1e-3 && (means[4] - 138.0).abs() < 1e-3, "{means:?}");
+        assert!((180.0 - means[5] - means[0]).abs() < 1e-4, "{means:?}");
+    }
+
+    #[test]
+    fn strips_keep_hue_and_order() {
+        let strip = strip(&[[1.0, 1.0, 1.0], [0.5, 0.5, 0.5], [0.9, 0.1, 0.0], [0.0, 0.0, 0.0]], 1.0);
+        let channels = |c: &str| [1, 3, 5].map(|i| u8::from_str_radix(&c[i..i + 2], 16).unwrap());
+        let [white, grey, red, black] = [0, 1, 2, 3].map(|i| channels(&strip[i]));
+        assert!(
+            white[0] == white[2] && white[0] > 230 && grey[0] < white[0] && grey[0] == grey[1],
+            "{strip:?}"
+        );
+        assert!(red[0] > red[1] && red[1] > red[2], "{strip:?}");
+        assert_eq!(black, [0, 0, 0]);
+    }
+}
