@@ -71,7 +71,7 @@ impl Axis {
                 let labelled = match digit {
                     1 => exponent.rem_euclid(every) == 0,
                     2 | 5 => decades < 1.6,
-                    3 => decades < 2.2 && decades >= 1.6,
+                    3 => (1.6..2.2).contains(&decades),
                     _ => false,
                 };
                 if !inside(value) {
