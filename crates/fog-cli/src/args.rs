@@ -1,8 +1,19 @@
 //! Arguments as they are typed.
 
 mod figures;
+mod fog_source;
+mod form;
+mod mie;
+mod number;
+mod optics;
+mod visibility;
 
 pub(crate) use figures::{FigureFormat, FiguresArgs};
+pub(crate) use fog_source::FogSourceArgs;
+pub(crate) use form::FormArgs;
+pub(crate) use mie::MieArgs;
+pub(crate) use optics::OpticsArgs;
+pub(crate) use visibility::{EditionArg, VisibilityArgs};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
@@ -21,6 +32,8 @@ Examples:
   fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
   fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
   fogbank schema > fogbank.schema.json                        for completion and checks in an editor
+  fogbank visibility --model advection --height 180           how far one sees in that fog, by every law
+  fogbank optics --model advection --height 180 --altitude 2 --wavelength 550 905   extinction, albedo, g, water
 
 Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files.";
 
@@ -40,6 +53,12 @@ pub(crate) enum Command {
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
     Figures(FiguresArgs),
+    /// How far objects, lights and runways are seen in fog, by every law; conversions between visibility and water.
+    Visibility(VisibilityArgs),
+    /// Optical quantities of fog by altitude and wavelength.
+    Optics(OpticsArgs),
+    /// Scattering by one sphere: the Mie series.
+    Mie(MieArgs),
 }
 
 /// Which configuration.

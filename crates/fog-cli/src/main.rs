@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod print;
 mod report;
+mod rows;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -20,6 +21,9 @@ fn main() -> ExitCode {
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
         args::Command::Figures(args) => commands::figures::run(&args),
+        args::Command::Visibility(args) => commands::visibility::run(&args),
+        args::Command::Optics(args) => commands::optics::run(&args),
+        args::Command::Mie(args) => commands::mie::run(&args),
     };
     match result {
         Ok(code) => code,

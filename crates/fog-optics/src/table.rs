@@ -10,7 +10,7 @@ use fog_core::optics_table::OpticsTable;
 use fog_core::phase_grid::NODES;
 
 /// Raised whenever the numbers in a table change for the same settings: old caches are then not found.
-pub const KERNEL_VERSION: u32 = 1;
+pub const KERNEL_VERSION: u32 = 2;
 
 /// The axes of a table.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,11 @@
 //! ([`threshold`]), so that every function and every result names its own.
 
 pub mod allard;
+pub mod category;
 pub mod koschmieder;
+pub mod parametrised;
+pub mod rvr;
+pub mod slant;
 pub mod threshold;
 
 pub use allard::{PAPER_INTENSITIES_CD, allard_m, sigma_t_from_allard};
@@ -12,4 +16,5 @@ pub use koschmieder::{
     KOSCHMIEDER_OPTICAL_DEPTH, MOR_OPTICAL_DEPTH, koschmieder_m, mor_m, sigma_t_from_koschmieder,
     sigma_t_from_mor,
 };
+pub use slant::{Law, Sight, transmittance};
 pub use threshold::Threshold;

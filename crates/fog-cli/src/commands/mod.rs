@@ -1,9 +1,14 @@
 //! The subcommands, one file each.
 
 pub(crate) mod figures;
+mod fog_source;
+pub(crate) mod mie;
+pub(crate) mod optics;
 pub(crate) mod plan;
 pub(crate) mod render;
 pub(crate) mod scene;
 pub(crate) mod schema;
+mod spectrum;
 pub(crate) mod sweep;
 pub(crate) mod verify;
+pub(crate) mod visibility;

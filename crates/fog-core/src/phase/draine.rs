@@ -82,7 +82,11 @@ impl Draine {
             if excess.abs() <= 4.0 * f64::EPSILON * u {
                 break;
             }
-            if excess > 0.0 { high = h } else { low = h }
+            if excess > 0.0 {
+                high = h
+            } else {
+                low = h
+            }
             let mu = 1.0 - m;
             let newton = h - excess / (slope_norm * (1.0 + self.alpha * mu * mu));
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

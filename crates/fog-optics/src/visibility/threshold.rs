@@ -48,7 +48,7 @@ pub const WMO_TWILIGHT: Threshold = wmo("wmo_twilight", 1e-6, "twilight, dawn, o
 pub const WMO_MOONLIGHT: Threshold =
     wmo("wmo_moonlight", 1.995_262_314_968_879_6e-7, "moonlight, or not yet quite dark");
 /// WMO's threshold for complete darkness, or no light but starlight: 10^−7.5 lx.
-pub const WMO_DARK: Threshold = wmo("wmo_dark", 3.162_277_660_168_379_5e-8, "no light other than starlight");
+pub const WMO_DARK: Threshold = wmo("wmo_dark", 3.162_277_660_168_379e-8, "no light other than starlight");
 
 /// WMO's three thresholds for observations of lights by night, from twilight to darkness.
 pub const WMO: [Threshold; 3] = [WMO_TWILIGHT, WMO_MOONLIGHT, WMO_DARK];
