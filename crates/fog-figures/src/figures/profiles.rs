@@ -56,7 +56,7 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let rows = vec![Row::panels(310.0, panels.by_ref().take(2)), Row::panels(310.0, panels)];
     let [first_um, last_um] = sources.model().diameters().range_um();
     let caption = format!(
-        "From the model's droplet spectra by Mie series of water at 25 °C, summed over {first_um} to {last_um} µm. Effective radius \
+        "From the model's droplet spectra by Mie series of water, summed over {first_um} to {last_um} µm. Effective radius \
          and g depend on relative altitude alone; extinction and water grow with the number of droplets."
     );
     Ok(figure("profiles", "Optics of advection fog by altitude", &caption, rows, sheet))

@@ -60,8 +60,8 @@ pub(crate) fn draw(sources: &Sources<'_>) -> Result<Figure, FiguresError> {
     let [first, second, third] = panels;
     let rows = vec![Row::panels(320.0, [first, second]), Row::panels(320.0, [third])];
     let caption = format!(
-        "Advection fog {height} m thick at four relative altitudes ζ, from the model's droplet spectra by Mie series of water \
-         at 25 °C. Dotted: the wavelengths of common lidars."
+        "Advection fog {height} m thick at four relative altitudes ζ, from the model's droplet spectra by Mie series of water. \
+         Dotted: the wavelengths of common lidars."
     );
     Ok(figure("wavelengths", &format!("Optics of {height} m of fog by wavelength"), &caption, rows, sheet))
 }
