@@ -1,6 +1,7 @@
 //! Arguments as they are typed.
 
 mod compare;
+mod figures;
 mod fog_source;
 mod form;
 mod mie;
@@ -9,6 +10,7 @@ mod optics;
 mod visibility;
 
 pub(crate) use compare::CompareArgs;
+pub(crate) use figures::{FigureFormat, FiguresArgs};
 pub(crate) use fog_source::FogSourceArgs;
 pub(crate) use form::FormArgs;
 pub(crate) use mie::MieArgs;
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Scene(SceneArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
+    /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
+    Figures(FiguresArgs),
     /// How far objects, lights and runways are seen in fog, by every law; conversions between visibility and water.
     Visibility(VisibilityArgs),
     /// Optical quantities of fog by altitude and wavelength.

@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
+        args::Command::Figures(args) => commands::figures::run(&args),
         args::Command::Visibility(args) => commands::visibility::run(&args),
         args::Command::Optics(args) => commands::optics::run(&args),
         args::Command::Mie(args) => commands::mie::run(&args),

@@ -11,6 +11,7 @@ pub mod delta_e;
 pub mod math;
 pub mod moments;
 pub mod optics_table;
+pub mod phase;
 pub mod phase_grid;
 pub mod profile;
 pub mod random;

@@ -34,6 +34,7 @@ pub use compare::{
 pub use error::Error;
 pub use fog::Fog;
 pub use fog_dataset as dataset;
+pub use fog_figures as figures;
 pub use fog_film as film;
 pub use fog_optics as optics;
 pub use fog_plan as plan;

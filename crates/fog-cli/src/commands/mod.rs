@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 pub(crate) mod compare;
+pub(crate) mod figures;
 mod fog_source;
 pub(crate) mod mie;
 pub(crate) mod optics;

@@ -8,6 +8,7 @@ mod data_set;
 mod determinism;
 mod droplets;
 mod failures;
+mod figures;
 mod mie;
 mod mistakes;
 mod optics;
