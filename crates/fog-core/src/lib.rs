@@ -10,6 +10,7 @@ pub mod colour;
 pub mod math;
 pub mod moments;
 pub mod optics_table;
+pub mod patchiness;
 pub mod phase_grid;
 pub mod profile;
 pub mod random;
