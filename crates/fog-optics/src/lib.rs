@@ -27,6 +27,7 @@ pub mod layer_csv;
 pub mod lidar;
 pub mod mean_diameter;
 pub mod mie;
+pub mod phenomena;
 pub mod polydisperse;
 pub mod size;
 pub mod spectrum_csv;
@@ -35,3 +36,5 @@ pub mod table;
 pub mod vertical;
 pub mod visibility;
 pub mod water;
+
+pub use fog_core::patchiness;
