@@ -122,7 +122,8 @@ fn phases(wavenumber: f64, ends: [f64; 2]) -> [f64; 2] {
 /// Least and greatest cosine of the phases (in turns) that two ranges and a constant add up to.
 fn cosine_range(x: [f64; 2], z: [f64; 2], phase: f64) -> [f64; 2] {
     let (first, last) = (x[0] + z[0] + phase, x[1] + z[1] + phase);
-    if !(last - first < 1.0) {
+    let turns = last - first;
+    if turns >= 1.0 || turns.is_nan() {
         return [-1.0, 1.0];
     }
     let ends = [cos_turns(first), cos_turns(last)];
