@@ -12,6 +12,7 @@ pub mod math;
 pub mod moments;
 pub mod optics_table;
 pub mod phase;
+pub mod patchiness;
 pub mod phase_grid;
 pub mod profile;
 pub mod random;

@@ -28,6 +28,7 @@ pub mod layer_csv;
 pub mod lidar;
 pub mod mean_diameter;
 pub mod mie;
+pub mod phenomena;
 pub mod polydisperse;
 pub mod size;
 pub mod spectrum_csv;
@@ -36,3 +37,5 @@ pub mod table;
 pub mod vertical;
 pub mod visibility;
 pub mod water;
+
+pub use fog_core::patchiness;
