@@ -18,6 +18,7 @@
 pub mod advection;
 pub mod distribution;
 pub mod error;
+pub mod fit;
 pub mod layer;
 pub mod layer_csv;
 pub mod mean_diameter;
