@@ -30,14 +30,17 @@ mod assemble;
 mod basis;
 mod bins;
 mod csv;
+mod degrees;
 mod joint;
 mod least_squares;
 mod linear;
+mod markdown;
 mod measurements;
 mod model_text;
 mod number;
 mod outcome;
 mod poisson;
+mod report;
 mod shapes;
 mod survey;
 pub mod synthetic;
@@ -45,6 +48,7 @@ mod trend;
 
 pub use altitude::BINS_MIN;
 pub use csv::{parse, write_counts};
+pub use degrees::DegreeStep;
 pub use measurements::{Bin, Measurements, Observation, Quantity, Spectrum};
 pub use outcome::{AltitudeFit, Fit, NumberFit, OwnFit, ParameterFit, SHAPE_KEYS, Standing};
 pub use trend::{CrossValidation, Degrees};
@@ -109,10 +113,9 @@ pub fn fit(
 ) -> Result<Fit, OpticsError> {
     settings.check()?;
     // Each altitude by itself, twice: the second time knowing its neighbours.
-    let mut survey = survey::survey(measurements, settings, &|done| progress(0.8 * done))?;
+    let mut survey = survey::survey(measurements, settings, &|done| progress(0.3 * done))?;
     // Shape parameters over ζ, then of all counts at once.
-    let shapes = shapes::shapes(&mut survey, settings)?;
-    progress(0.9);
+    let shapes = shapes::shapes(&mut survey, settings, &|done| progress(0.3 + 0.6 * done))?;
     // Number density of each altitude with those shapes, over ζ and height.
     let number = number::number(&mut survey, &shapes, settings)?;
     progress(0.95);

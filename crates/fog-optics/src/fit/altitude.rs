@@ -1,7 +1,7 @@
 //! The fit of one altitude's spectrum: lognormal and Gaussian, from several starts, bad bins set aside.
 
 use super::bins::{SHAPES, Shape, deviance_residual, shares, tamed};
-use super::least_squares::{Minimum, Residuals, minimise};
+use super::least_squares::{Minimum, Residuals, THOROUGH, minimise};
 use super::linear::{inverse, robust_scale};
 use super::measurements::{Bin, Spectrum};
 use fog_core::math::f64::{exp, ln};
@@ -14,7 +14,6 @@ pub const BINS_MIN: usize = PARAMETERS + 1;
 const TRUSTED: f64 = 0.85;
 /// Largest share of a spectrum's bins that is set aside as bad.
 const BAD_SHARE_MAX: f64 = 0.25;
-const ITERATIONS: usize = 100;
 
 /// What is allowed for each shape parameter, from the diameters that were measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +136,7 @@ pub(super) fn fit(spectrum: &Spectrum, bounds: &Bounds, noise_known: bool, outli
     }
     let starts: Vec<Vec<f64>> = starts(bins).iter().map(|shape| with_number(bins, shape)).collect();
     let limits = bounds.with_number();
-    let run = |start: &[f64], taming| minimise(&SpectrumResiduals { bins, taming }, start, &limits, ITERATIONS);
+    let run = |start: &[f64], taming| minimise(&SpectrumResiduals { bins, taming }, start, &limits, THOROUGH);
     let plain: Vec<Minimum> = starts.iter().filter_map(|start| run(start, None)).collect();
     let (best, scale) = best_of(bins, &plain, noise_known)?;
     // Where a bin stands out even from the best fit, it may have pulled all of them: search again with tamed residuals.
@@ -162,7 +161,7 @@ pub(super) fn fit_near(
     let bins = &spectrum.bins;
     let start = with_number(bins, near);
     let limits = bounds.with_number();
-    let run = |start: &[f64], taming| minimise(&SpectrumResiduals { bins, taming }, start, &limits, ITERATIONS);
+    let run = |start: &[f64], taming| minimise(&SpectrumResiduals { bins, taming }, start, &limits, THOROUGH);
     let scale = scale_of(&residuals_of(bins, &start), noise_known);
     let first = run(&start, Some(2.5 * scale))?;
     let scale = scale_of(&residuals_of(bins, &first.parameters), noise_known);
@@ -241,7 +240,7 @@ fn without_bad_bins(
         worst.sort_unstable();
         let good: Vec<Bin> = (0..bins.len()).filter(|i| !worst.contains(i)).map(|i| bins[i]).collect();
         let limits = bounds.with_number();
-        let end = minimise(&SpectrumResiduals { bins: &good, taming: None }, &parameters, &limits, ITERATIONS)?;
+        let end = minimise(&SpectrumResiduals { bins: &good, taming: None }, &parameters, &limits, THOROUGH)?;
         let settled = worst == bad;
         bad = worst;
         parameters = end.parameters;

@@ -59,6 +59,7 @@ pub(super) fn assemble(
         shapes: shape_fits,
         number: number_fit,
         refined: shapes.joint.is_some(),
+        degree_steps: shapes.steps,
         outlier_mads: settings.outlier_mads,
         warnings: Vec::new(),
     };

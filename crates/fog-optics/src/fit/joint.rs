@@ -6,7 +6,7 @@
 use super::altitude::Bounds;
 use super::basis::bernstein;
 use super::bins::{SHAPES, Shape, Share, deviance_residual, shares};
-use super::least_squares::{Residuals, minimise};
+use super::least_squares::{Effort, Residuals, minimise};
 use super::linear::{dot, inverse};
 use super::measurements::Bin;
 
@@ -149,13 +149,13 @@ impl Residuals for JointResiduals<'_> {
 }
 
 /// Refines polynomials of the same degrees from `start`; `None` if the counts do not determine them.
-pub(super) fn refine(layers: &[Layer], start: &Polynomials, bounds: &Bounds) -> Option<Joint> {
+pub(super) fn refine(layers: &[Layer], start: &Polynomials, bounds: &Bounds, effort: Effort) -> Option<Joint> {
     let residuals = JointResiduals::new(layers, start);
     // Coefficients between the bounds keep the polynomial between them.
     let limits: Vec<[f64; 2]> =
         (0..SHAPES).flat_map(|p| std::iter::repeat_n(bounds.0[p], start[p].len())).collect();
     let flat: Vec<f64> = start.iter().flatten().copied().collect();
-    let end = minimise(&residuals, &flat, &limits, 100)?;
+    let end = minimise(&residuals, &flat, &limits, effort)?;
     let covariance = residuals.covariance(&end.parameters)?;
     Some(Joint { polynomials: residuals.split(&end.parameters), covariance })
 }

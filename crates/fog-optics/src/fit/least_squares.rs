@@ -11,6 +11,19 @@ pub(super) trait Residuals {
     fn evaluate(&self, parameters: &[f64], residuals: &mut [f64], columns: Option<&mut [Vec<f64>]>);
 }
 
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Relative change of the sum, or of the parameters, that is too small to go on for.
+    pub(super) tolerance: f64,
+    pub(super) iterations: usize,
+}
+
+/// To the last digit that matters.
+pub(super) const THOROUGH: Effort = Effort { tolerance: 1e-10, iterations: 100 };
+/// To a thousandth of what counting noise makes of a sum of a thousand residuals.
+pub(super) const QUICK: Effort = Effort { tolerance: 1e-6, iterations: 30 };
+
 /// Where the sum of squares is least.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Minimum {
@@ -70,7 +83,7 @@ pub(super) fn minimise(
     residuals: &dyn Residuals,
     start: &[f64],
     bounds: &[[f64; 2]],
-    iterations: usize,
+    effort: Effort,
 ) -> Option<Minimum> {
     let limit = |&[low, high]: &[f64; 2]| MPPar {
         limited_low: true,
@@ -81,8 +94,10 @@ pub(super) fn minimise(
         ..MPPar::new()
     };
     let config = MPConfig {
-        max_iter: iterations,
-        max_fev: MPMaxFev::Limited(10 * iterations),
+        ftol: effort.tolerance,
+        xtol: effort.tolerance,
+        max_iter: effort.iterations,
+        max_fev: MPMaxFev::Limited(10 * effort.iterations),
         step_factor: 1.0,
         ..MPConfig::new()
     };
@@ -117,14 +132,14 @@ mod tests {
 
     #[test]
     fn valley_is_walked_to_its_end_or_to_the_bound() {
-        let free = minimise(&Valley, &[-1.2, 1.0], &[[-5.0, 5.0], [-5.0, 5.0]], 200).unwrap();
+        let free = minimise(&Valley, &[-1.2, 1.0], &[[-5.0, 5.0], [-5.0, 5.0]], THOROUGH).unwrap();
         assert!(free.converged && free.sum < 1e-16, "{free:?}");
         assert!((free.parameters[0] - 1.0).abs() < 1e-8);
         // x at most 0.5: the best point of the bound is (0.5, 0.25).
-        let bound = minimise(&Valley, &[-1.2, 9.0], &[[-5.0, 0.5], [-5.0, 5.0]], 200).unwrap();
+        let bound = minimise(&Valley, &[-1.2, 9.0], &[[-5.0, 0.5], [-5.0, 5.0]], THOROUGH).unwrap();
         assert_eq!(bound.parameters[0], 0.5);
         assert!((bound.parameters[1] - 0.25).abs() < 1e-6 && (bound.sum - 0.25).abs() < 1e-9, "{bound:?}");
-        let again = minimise(&Valley, &[-1.2, 9.0], &[[-5.0, 0.5], [-5.0, 5.0]], 200).unwrap();
+        let again = minimise(&Valley, &[-1.2, 9.0], &[[-5.0, 0.5], [-5.0, 5.0]], THOROUGH).unwrap();
         assert_eq!(bound, again);
     }
 
@@ -139,8 +154,8 @@ mod tests {
                 r.fill(f64::NAN);
             }
         }
-        assert_eq!(minimise(&NoNumbers, &[0.0], &[[-1.0, 1.0]], 10), None);
+        assert_eq!(minimise(&NoNumbers, &[0.0], &[[-1.0, 1.0]], THOROUGH), None);
         let bounds = [[-5.0, 5.0]; 3];
-        assert_eq!(minimise(&Valley, &[0.0; 3], &bounds, 10), None, "three parameters of two residuals");
+        assert_eq!(minimise(&Valley, &[0.0; 3], &bounds, THOROUGH), None, "three parameters of two residuals");
     }
 }

@@ -1,5 +1,6 @@
 //! What a fit found: everything that a report or a figure of it needs.
 
+use super::degrees::DegreeStep;
 use super::measurements::Spectrum;
 use super::trend::{CrossValidation, Degrees};
 use crate::advection::AdvectionModel;
@@ -32,6 +33,8 @@ pub struct Fit {
     pub number: NumberFit,
     /// True if the shape polynomials were refined over all counts at once; false if they are those of the stages.
     pub refined: bool,
+    /// The last round of the search for the degrees of the refined polynomials: no step was worth taking, and why.
+    pub degree_steps: Vec<DegreeStep>,
     /// Deviations, in robust standard deviations, beyond which bins and altitudes were set aside.
     pub outlier_mads: f64,
     /// What the user should know before using the model.

@@ -1,7 +1,9 @@
 //! The shape polynomials: from the altitudes' own fits, then of all counts at once.
 
 use super::basis::bernstein;
+use super::degrees::{DegreeStep, search};
 use super::joint::{Joint, Layer, Polynomials, refine, shape_at};
+use super::least_squares::THOROUGH;
 use super::linear::{dot, median, robust_scale};
 use super::outcome::Standing;
 use super::survey::{Place, Survey};
@@ -19,6 +21,8 @@ pub(super) struct Shapes {
     pub(super) staged: Polynomials,
     /// Of all counts at once, if asked for and determined.
     pub(super) joint: Option<Joint>,
+    /// The last comparison of degrees on the way to `joint`.
+    pub(super) steps: Vec<DegreeStep>,
 }
 
 impl Shapes {
@@ -41,14 +45,28 @@ impl Shapes {
     }
 }
 
-pub(super) fn shapes(survey: &mut Survey<'_>, settings: &FitSettings) -> Result<Shapes, OpticsError> {
+pub(super) fn shapes(
+    survey: &mut Survey<'_>,
+    settings: &FitSettings,
+    progress: &dyn Fn(f64),
+) -> Result<Shapes, OpticsError> {
     let mut trends = staged(survey, settings)?;
     let staged = std::array::from_fn(|p| trends[p].fit.values.clone());
-    let joint = if settings.refine { all_at_once(survey, settings, &staged) } else { None };
+    let (mut joint, mut steps) = (None, Vec::new());
+    if settings.refine {
+        // With the degrees of the stages, then with those that all counts ask for.
+        joint = all_at_once(survey, settings, &staged);
+        if let Some(first) = &joint {
+            let (start, found) =
+                search(&layers(survey), &first.polynomials, &survey.bounds, settings.max_shape_degree, progress);
+            steps = found;
+            joint = all_at_once(survey, settings, &start).or(joint);
+        }
+    }
     for trend in &mut trends {
         trend.outliers.clear();
     }
-    Ok(Shapes { trends, staged, joint })
+    Ok(Shapes { trends, staged, joint, steps })
 }
 
 /// Polynomials of the altitudes' own fits; altitudes that stand out in any parameter are rejected.
@@ -77,14 +95,11 @@ fn staged(survey: &mut Survey<'_>, settings: &FitSettings) -> Result<Vec<Trend>,
 
 /// All counts at once. Bins and altitudes that stand out from the common polynomials are set aside, those that do not are
 /// taken back, until nothing changes.
-fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, staged: &Polynomials) -> Option<Joint> {
+fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, from: &Polynomials) -> Option<Joint> {
     let mut joint: Option<Joint> = None;
     for _ in 0..4 {
-        let taking_part = |place: &&Place<'_>| !matches!(place.standing, Standing::Rejected(_));
-        let layers: Vec<Layer> =
-            survey.places.iter().filter(taking_part).map(Place::layer).filter(|l| l.bins.len() > 1).collect();
-        let start = joint.as_ref().map_or(staged, |joint| &joint.polynomials);
-        let new = refine(&layers, start, &survey.bounds)?;
+        let start = joint.as_ref().map_or(from, |joint| &joint.polynomials);
+        let new = refine(&layers(survey), start, &survey.bounds, THOROUGH)?;
         let changed = set_aside(survey, settings, &new.polynomials);
         joint = Some(new);
         if !changed {
@@ -92,6 +107,12 @@ fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, staged: &Polynom
         }
     }
     joint
+}
+
+/// Bins of the altitudes that take part.
+fn layers(survey: &Survey<'_>) -> Vec<Layer> {
+    let taking_part = |place: &&Place<'_>| !matches!(place.standing, Standing::Rejected(_));
+    survey.places.iter().filter(taking_part).map(Place::layer).filter(|layer| layer.bins.len() > 1).collect()
 }
 
 /// Applies the outlier rule to bins and altitudes, given the common polynomials; true if anything changed.

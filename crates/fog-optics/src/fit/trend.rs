@@ -39,7 +39,9 @@ pub struct CrossValidation {
     pub degrees: Degrees,
     /// Mean squared error of the held-out values, each in units of its own variance.
     pub score: f64,
-    /// Standard error of the score over the folds.
+    /// Score less the best degree's.
+    pub excess: f64,
+    /// Standard error of the excess, from the differences of the altitudes' errors.
     pub error: f64,
     /// False if the polynomial would not be positive where it must be.
     pub valid: bool,
@@ -121,8 +123,8 @@ pub(super) fn fit(points: &[Point], domain: &Domain, settings: &TrendSettings) -
         .filter(|(i, _)| outliers.iter().all(|(outlier, _)| outlier != i))
         .map(|(_, point)| *point)
         .collect();
-    let mut table = cross_validate(&kept, domain, settings);
-    let chosen = choose(&mut table)?;
+    let table = cross_validate(&kept, domain, settings);
+    let chosen = table.iter().find(|entry| entry.chosen)?.degrees;
     let (fit, scatter) = weighted(&kept, domain, chosen, settings.relative)?;
     Some(Trend { degrees: chosen, fit, scatter, table, outliers })
 }
@@ -242,51 +244,54 @@ fn cross_validate(points: &[Point], domain: &Domain, settings: &TrendSettings) -
         let extra = if settings.relative { scatter * p.value } else { scatter };
         p.error * p.error + extra * extra
     };
-    let score = |degrees: Degrees| {
-        let mut means = Vec::new();
-        let mut total = 0.0;
+    // Squared error of each held-out point over its variance, in the order of ζ.
+    let errors = |degrees: Degrees| {
+        let mut errors = vec![0.0; points.len()];
         for fold in 0..folds {
-            let held = |k: usize| k % folds == fold;
-            let split = |want: bool| (0..order.len()).filter(move |&k| held(k) == want).map(|k| points[order[k]]);
-            let train: Vec<Point> = split(false).collect();
+            let (held, train): (Vec<usize>, Vec<usize>) = (0..order.len()).partition(|k| k % folds == fold);
+            let train: Vec<Point> = train.iter().map(|&k| points[order[k]]).collect();
             let rows: Vec<Vec<f64>> = train.iter().map(|p| domain.row(degrees, p.zeta, p.height_m)).collect();
             let values: Vec<f64> = train.iter().map(|p| p.value).collect();
             let weights: Vec<f64> = train.iter().map(|p| 1.0 / variance(p)).collect();
             let fit = solve(&rows, &values, &weights)?;
-            let errors: Vec<f64> = split(true)
-                .map(|p| {
-                    let error = p.value - dot(&domain.row(degrees, p.zeta, p.height_m), &fit.values);
-                    error * error / variance(&p)
-                })
-                .collect();
-            total += errors.iter().sum::<f64>();
-            means.push(errors.iter().sum::<f64>() / errors.len() as f64);
+            for k in held {
+                let p = &points[order[k]];
+                let error = p.value - dot(&domain.row(degrees, p.zeta, p.height_m), &fit.values);
+                errors[k] = error * error / variance(p);
+            }
         }
-        Some((total / points.len() as f64, means))
-    };
-    let entry = |degrees: Degrees| {
-        let (score, means) = score(degrees)?;
-        let k = means.len() as f64;
-        let mean = means.iter().sum::<f64>() / k;
-        let spread: f64 = means.iter().map(|m| (m - mean) * (m - mean)).sum::<f64>() / (k - 1.0).max(1.0);
         let valid =
             weighted(points, domain, degrees, settings.relative).is_some_and(|(fit, _)| domain.holds(degrees, &fit));
-        Some(CrossValidation { degrees, score, error: (spread / k).sqrt(), valid, chosen: false })
+        Some((degrees, errors, valid))
     };
-    candidates.into_iter().filter_map(entry).collect()
+    let all: Vec<(Degrees, Vec<f64>, bool)> = candidates.into_iter().filter_map(errors).collect();
+    table(&all)
 }
 
-/// The simplest degree whose score is within one standard error of the best one's (Breiman et al. 1984).
-fn choose(table: &mut [CrossValidation]) -> Option<Degrees> {
-    let valid = || table.iter().filter(|entry| entry.valid);
-    let best = valid().fold(None::<&CrossValidation>, |best, entry| match best {
-        Some(best) if best.score <= entry.score => Some(best),
-        _ => Some(entry),
-    })?;
-    let limit = best.score + best.error;
-    let chosen = valid().find(|entry| entry.score <= limit)?.degrees;
-    for entry in table.iter_mut() {
-        entry.chosen = entry.degrees == chosen;
-    }
-    Some(chosen)
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Scores of degrees from the held-out errors of each point.
+///
+/// The best valid degree has the least mean; the simplest one is chosen whose mean exceeds it by no more than one standard
+/// error of that difference, point by point (the rule of Breiman et al. 1984, with paired errors).
+fn table(all: &[(Degrees, Vec<f64>, bool)]) -> Vec<CrossValidation> {
+    let valid = all.iter().filter(|(_, _, valid)| *valid);
+    let Some((_, best, _)) = valid.reduce(|best, entry| if mean(&entry.1) < mean(&best.1) { entry } else { best })
+    else {
+        return Vec::new();
+    };
+    let mut found = false;
+    let entry = |(degrees, errors, valid): &(Degrees, Vec<f64>, bool)| {
+        let differences: Vec<f64> = errors.iter().zip(best).map(|(e, b)| e - b).collect();
+        let excess = mean(&differences);
+        let n = differences.len() as f64;
+        let spread = differences.iter().map(|d| (d - excess) * (d - excess)).sum::<f64>() / (n - 1.0).max(1.0);
+        let error = (spread / n).sqrt();
+        let chosen = *valid && !found && excess <= error;
+        found |= chosen;
+        CrossValidation { degrees: *degrees, score: mean(errors), excess, error, valid: *valid, chosen }
+    };
+    all.iter().map(entry).collect()
 }
