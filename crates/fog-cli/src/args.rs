@@ -1,5 +1,9 @@
 //! Arguments as they are typed.
 
+mod fit;
+
+pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
+
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -32,6 +36,8 @@ pub(crate) enum Command {
     Schema,
     /// Write one of the built-in scenes as a GLB file.
     Scene(SceneArgs),
+    /// Fit a fog model to measured droplet counts.
+    Fit(FitArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
 }

@@ -44,6 +44,8 @@ mod report;
 mod shapes;
 mod survey;
 pub mod synthetic;
+#[cfg(test)]
+mod tests;
 mod trend;
 
 pub use altitude::BINS_MIN;

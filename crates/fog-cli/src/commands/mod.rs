@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+pub(crate) mod fit;
 pub(crate) mod plan;
 pub(crate) mod render;
 pub(crate) mod scene;

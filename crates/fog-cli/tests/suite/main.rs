@@ -6,6 +6,7 @@ mod common;
 mod data_set;
 mod determinism;
 mod failures;
+mod fit;
 mod mistakes;
 mod pipes;
 mod records;

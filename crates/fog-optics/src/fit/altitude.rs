@@ -24,8 +24,8 @@ impl Bounds {
     /// 0.05 to 2, σ_G from 0.15 of the narrowest bin to half of the range, and G : L from e⁻⁶ to e⁶.
     pub(super) fn of(spectra: &[Spectrum]) -> Self {
         let bins = || spectra.iter().flat_map(|s| &s.bins);
-        let low = bins().map(|b| b.low_um).fold(f64::INFINITY, f64::min).max(0.1);
         let high = bins().map(|b| b.high_um).fold(0.0, f64::max);
+        let low = bins().map(|b| b.low_um).fold(f64::INFINITY, f64::min).max(0.1).min(0.5 * high);
         let narrowest = bins().map(Bin::width_um).fold(f64::INFINITY, f64::min);
         let widest = 0.5 * (high - low).max(narrowest);
         Self([
@@ -129,7 +129,12 @@ fn trusted_sum(residuals: &[f64]) -> f64 {
 
 /// Fits one altitude, from several starts; `None` if it has fewer than [`BINS_MIN`] bins, fewer than four with droplets, or
 /// no start led anywhere.
-pub(super) fn fit(spectrum: &Spectrum, bounds: &Bounds, noise_known: bool, outlier_mads: f64) -> Option<Lone> {
+pub(super) fn fit(
+    spectrum: &Spectrum,
+    bounds: &Bounds,
+    noise_known: bool,
+    outlier_mads: f64,
+) -> Option<Lone> {
     let bins = &spectrum.bins;
     if bins.len() < BINS_MIN || bins.iter().filter(|bin| bin.droplets > 0.0).count() < 4 {
         return None;
@@ -171,7 +176,13 @@ pub(super) fn fit_near(
 
 /// Of the ends that fit as well as the best (to four units of deviance), the first whose Gaussian is the narrow part and
 /// that touches no bound; then bad bins are set aside, and the rest is fitted by plain likelihood.
-fn choose(bins: &[Bin], ends: &[Minimum], bounds: &Bounds, noise_known: bool, outlier_mads: f64) -> Option<Lone> {
+fn choose(
+    bins: &[Bin],
+    ends: &[Minimum],
+    bounds: &Bounds,
+    noise_known: bool,
+    outlier_mads: f64,
+) -> Option<Lone> {
     let finish = |end: &Minimum| without_bad_bins(bins, &end.parameters, bounds, noise_known, outlier_mads);
     let (best, scale) = best_of(bins, ends, noise_known)?;
     let score = |end: &Minimum| trusted_sum(&residuals_of(bins, &end.parameters));

@@ -25,7 +25,7 @@ pub(super) fn assemble(
     number: Number,
 ) -> Result<Fit, OpticsError> {
     let heights_m = measurements.heights_m();
-    let shape_fits: [ParameterFit; 5] = std::array::from_fn(|p| parameter_fit(p, &shapes, survey.dispersion));
+    let shape_fits: [ParameterFit; 5] = std::array::from_fn(|p| parameter_fit(p, &shapes));
     let coefficients: Vec<Vec<f64>> =
         number.fit.coefficients.iter().map(|row| row.iter().map(|c| rounded(*c)).collect()).collect();
     let remark = |p: usize| {
@@ -55,6 +55,7 @@ pub(super) fn assemble(
         heights_m,
         counting_noise_known: survey.noise_known,
         dispersion: survey.dispersion,
+        common_dispersion: shapes.dispersion,
         altitudes,
         shapes: shape_fits,
         number: number_fit,
@@ -85,8 +86,11 @@ fn comment(
     let rejected = count(|s| matches!(s, Standing::Rejected(_)));
     let bad: usize = survey.places.iter().map(|place| place.bad_bins.len()).sum();
     let bins: usize = survey.places.iter().map(|place| place.spectrum.bins.len()).sum();
-    let weights =
-        if survey.noise_known { "counting noise" } else { "counting noise of unknown scale (no volumes given)" };
+    let weights = if survey.noise_known {
+        "counting noise"
+    } else {
+        "counting noise of unknown scale (no volumes given)"
+    };
     let how = if shapes.joint.is_some() { ", refined over all counts at once" } else { "" };
     vec![
         format!("Fog model fitted by `fogbank fit` to {}.", measurements.source()),
@@ -96,16 +100,20 @@ fn comment(
             survey.places.len(),
             settings.outlier_mads
         ),
-        format!("Weights: {weights}; dispersion {:.3}. Polynomials by cross-validation{how}.", survey.dispersion),
+        format!(
+            "Weights: {weights}; dispersion {:.3}. Polynomials by cross-validation{how}.",
+            survey.dispersion
+        ),
     ]
 }
 
-fn parameter_fit(p: usize, shapes: &Shapes, dispersion: f64) -> ParameterFit {
-    let in_powers = |bernstein: &[f64]| to_powers(bernstein).iter().map(|c| rounded(*c)).collect::<Vec<f64>>();
+fn parameter_fit(p: usize, shapes: &Shapes) -> ParameterFit {
+    let in_powers =
+        |bernstein: &[f64]| to_powers(bernstein).iter().map(|c| rounded(*c)).collect::<Vec<f64>>();
     let coefficients = in_powers(&shapes.polynomials()[p]);
     let curve = |i: u32| {
         let zeta = f64::from(i) / 20.0;
-        [zeta, super::basis::evaluate(&coefficients, zeta), shapes.error(p, zeta, dispersion)]
+        [zeta, super::basis::evaluate(&coefficients, zeta), shapes.error(p, zeta)]
     };
     ParameterFit {
         key: SHAPE_KEYS[p],
@@ -183,7 +191,9 @@ fn warnings(fit: &Fit, settings: &FitSettings) -> Vec<String> {
     let zeta = used().map(|a| a.spectrum.zeta());
     let (low, high) = zeta.fold((1.0f64, 0.0f64), |(low, high), z| (low.min(z), high.max(z)));
     if low > 0.15 || high < 0.85 {
-        warnings.push(format!("altitudes were measured for zeta {low:.2} to {high:.2}: the model extrapolates beyond"));
+        warnings.push(format!(
+            "altitudes were measured for zeta {low:.2} to {high:.2}: the model extrapolates beyond"
+        ));
     }
     if !fit.counting_noise_known {
         warnings.push(
@@ -191,9 +201,10 @@ fn warnings(fit: &Fit, settings: &FitSettings) -> Vec<String> {
         );
     }
     if settings.refine && !fit.refined {
-        warnings.push("the counts do not determine all polynomials at once: those of the stages are used".into());
+        warnings
+            .push("the counts do not determine all polynomials at once: those of the stages are used".into());
     }
-    let negative = fit.number.curves.iter().find(|c| (low..=high).contains(&c[1]) && c[2] < 0.0);
+    let negative = fit.number.curves.iter().find(|c| c[2] < 0.0);
     if let Some([height, zeta, ..]) = negative {
         warnings.push(format!(
             "the number density is negative at zeta {zeta:.2} for a height of {height} m: the model is clear there"
@@ -202,8 +213,7 @@ fn warnings(fit: &Fit, settings: &FitSettings) -> Vec<String> {
     let bins = || used().flat_map(|a| &a.spectrum.bins);
     let (least, most) =
         bins().fold((f64::INFINITY, 0.0f64), |(low, high), b| (low.min(b.low_um), high.max(b.high_um)));
-    let everything =
-        [Bin { low_um: least, high_um: most, droplets: 0.0, volume_m3: 1.0, line: 0, rows: 1 }];
+    let everything = [Bin { low_um: least, high_um: most, droplets: 0.0, volume_m3: 1.0, line: 0, rows: 1 }];
     let outside = (0..=20).map(|i| {
         let shape = fit.model.shape(f64::from(i) / 20.0);
         let shape: Shape = [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)];

@@ -116,7 +116,8 @@ mod tests {
     const SHAPE: Shape = [2.1, 0.75, 8.8, 2.2, 0.6];
 
     fn bins(edges: &[f64]) -> Vec<Bin> {
-        let bin = |w: &[f64]| Bin { low_um: w[0], high_um: w[1], droplets: 0.0, volume_m3: 1.0, line: 0, rows: 1 };
+        let bin =
+            |w: &[f64]| Bin { low_um: w[0], high_um: w[1], droplets: 0.0, volume_m3: 1.0, line: 0, rows: 1 };
         edges.windows(2).map(bin).collect()
     }
 
@@ -130,7 +131,15 @@ mod tests {
         let density = |d| spectrum_shape(&SHAPE).density_1_um(d);
         let simpson = |a: f64, b: f64| {
             let h = (b - a) / 200.0;
-            let weight = |i| if i == 0 || i == 200 { 1.0 } else if i % 2 == 1 { 4.0 } else { 2.0 };
+            let weight = |i| {
+                if i == 0 || i == 200 {
+                    1.0
+                } else if i % 2 == 1 {
+                    4.0
+                } else {
+                    2.0
+                }
+            };
             (0..=200).map(|i| weight(i) * density(a + h * f64::from(i))).sum::<f64>() * h / 3.0
         };
         assert!((found[1].value - simpson(2.0, 5.0)).abs() < 1e-9);
@@ -157,7 +166,9 @@ mod tests {
 
     #[test]
     fn deviance_is_that_of_poisson() {
-        for (n, mean) in [(0.0, 3.0), (4.0, 7.0), (7.0, 4.0), (1000.0, 1001.0), (5.0, 5.049), (5.0, 5.051), (9.0, 9.0)] {
+        for (n, mean) in
+            [(0.0, 3.0), (4.0, 7.0), (7.0, 4.0), (1000.0, 1001.0), (5.0, 5.049), (5.0, 5.051), (9.0, 9.0)]
+        {
             let (r, slope) = deviance_residual(n, mean);
             let log = if n > 0.0 { n * ln(n / mean) } else { 0.0 };
             assert!((r * r - 2.0 * (log - n + mean)).abs() < 1e-12 * (1.0 + n), "{n} {mean}");

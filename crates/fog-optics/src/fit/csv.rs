@@ -135,7 +135,11 @@ pub fn write_counts(rows: &[Observation], comment: &str) -> String {
     }
     let _ = writeln!(text, "{},{},{VOLUME}", PLACE.join(","), Quantity::Count.column());
     for row in rows {
-        let _ = write!(text, "{},{},{},{},{}", row.fog_height_m, row.altitude_m, row.low_um, row.high_um, row.value);
+        let _ = write!(
+            text,
+            "{},{},{},{},{}",
+            row.fog_height_m, row.altitude_m, row.low_um, row.high_um, row.value
+        );
         let _ = writeln!(text, ",{:e}", row.sample_volume_m3.unwrap_or(0.0));
     }
     text
@@ -181,20 +185,36 @@ mod tests {
             (String::new(), "f.csv:1: column `fog_height_m`", "found no header"),
             ("height,alt\n1,2\n".into(), "f.csv:1: column `height`", "`height,alt`"),
             (HEAD.replace("altitude_m,", ""), "f.csv:1: column `altitude_m`", "not found"),
-            (HEAD.replace("count", "number"), "f.csv:1: column `number`", "one of count, number_per_bin_1_m3"),
+            (
+                HEAD.replace("count", "number"),
+                "f.csv:1: column `number`",
+                "one of count, number_per_bin_1_m3",
+            ),
             (HEAD.replace("count,", ""), "f.csv:1: column `count`", "found 0 columns of values"),
-            (HEAD.replace("count", "count,density_1_m3_um"), "f.csv:1: column `count`", "found 2 columns of values"),
+            (
+                HEAD.replace("count", "count,density_1_m3_um"),
+                "f.csv:1: column `count`",
+                "found 2 columns of values",
+            ),
             (HEAD.replace("altitude_m", "fog_height_m"), "f.csv:1: column `fog_height_m`", "found twice"),
             (HEAD.replace(",sample_volume_m3", ""), "f.csv:1: column `sample_volume_m3`", "not found"),
             (HEAD.into(), "f.csv:1: column `fog_height_m`", "no rows"),
             (format!("#\n{HEAD}100,50,2,5,many,1e-4\n"), "f.csv:3: column `count`", "found `many`"),
             (format!("{HEAD}100,50,2,5,,1e-4\n"), "f.csv:2: column `count`", "found ``"),
             (format!("{HEAD}100,50,2,5,NaN,1e-4\n"), "f.csv:2: column `count`", "found `NaN`"),
-            (format!("{HEAD}100,50,2,5,1\n"), "f.csv:2: column `sample_volume_m3`", "found 5 cells; expected 6"),
+            (
+                format!("{HEAD}100,50,2,5,1\n"),
+                "f.csv:2: column `sample_volume_m3`",
+                "found 5 cells; expected 6",
+            ),
             (format!("{HEAD}100,50,2,5,1,1,1\n"), "f.csv:2: column `sample_volume_m3`", "found 7 cells"),
             (format!("{HEAD}100,500,2,5,1,1\n"), "f.csv:2: column `altitude_m`", "found 500"),
             (format!("{HEAD}100,50,2,5,-1,1\n"), "f.csv:2: column `count`", "found -1"),
-            (format!("{HEAD}100,50,2,5,1,1\n\n100,50,4,6,1,1\n"), "f.csv:4: column `diameter_low_um`", "of line 2"),
+            (
+                format!("{HEAD}100,50,2,5,1,1\n\n100,50,4,6,1,1\n"),
+                "f.csv:4: column `diameter_low_um`",
+                "of line 2",
+            ),
         ] {
             let message = parse(&text, "f.csv").unwrap_err().to_string();
             assert!(message.starts_with(place) && message.contains(value), "{message}");

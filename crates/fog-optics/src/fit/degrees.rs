@@ -77,7 +77,8 @@ impl Search<'_> {
         let gains: Vec<f64> = from.iter().zip(to).map(|(from, to)| from - to).collect();
         let n = gains.len() as f64;
         let sum: f64 = gains.iter().sum();
-        let variance: f64 = gains.iter().map(|g| (g - sum / n) * (g - sum / n)).sum::<f64>() / (n - 1.0).max(1.0);
+        let variance: f64 =
+            gains.iter().map(|g| (g - sum / n) * (g - sum / n)).sum::<f64>() / (n - 1.0).max(1.0);
         Some((sum, (n * variance).sqrt()))
     }
 }
@@ -110,7 +111,8 @@ pub(super) fn search(
             })
             .flatten()
             .collect();
-        let mut candidates: Vec<Polynomials> = neighbours.iter().map(|(_, candidate)| candidate.clone()).collect();
+        let mut candidates: Vec<Polynomials> =
+            neighbours.iter().map(|(_, candidate)| candidate.clone()).collect();
         candidates.push(base.clone());
         search.learn(&candidates);
         left *= 2.0 / 3.0;
@@ -168,7 +170,8 @@ fn lowered(coefficients: &[f64]) -> Vec<f64> {
     let n = coefficients.len();
     let places: Vec<f64> = (0..=20).map(|i| f64::from(i) / 20.0).collect();
     let rows: Vec<Vec<f64>> = places.iter().map(|t| bernstein(n - 2, *t)).collect();
-    let values: Vec<f64> = places.iter().map(|t| super::linear::dot(coefficients, &bernstein(n - 1, *t))).collect();
+    let values: Vec<f64> =
+        places.iter().map(|t| super::linear::dot(coefficients, &bernstein(n - 1, *t))).collect();
     solve(&rows, &values, &[1.0; 21]).map_or_else(|| coefficients[..n - 1].to_vec(), |fit| fit.values)
 }
 

@@ -18,7 +18,7 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    fn droplets(&self) -> f64 {
+    pub(super) fn droplets(&self) -> f64 {
         self.bins.iter().map(|bin| bin.droplets).sum()
     }
 
@@ -38,8 +38,9 @@ impl Layer {
     pub(super) fn residuals(&self, shape: &Shape, number: f64) -> Vec<f64> {
         let mut share = Vec::new();
         shares(shape, &self.bins, &mut share);
-        let residual =
-            |(bin, share): (&Bin, &Share)| deviance_residual(bin.droplets, number * bin.volume_m3 * share.value).0;
+        let residual = |(bin, share): (&Bin, &Share)| {
+            deviance_residual(bin.droplets, number * bin.volume_m3 * share.value).0
+        };
         self.bins.iter().zip(&share).map(residual).collect()
     }
 }
@@ -149,7 +150,12 @@ impl Residuals for JointResiduals<'_> {
 }
 
 /// Refines polynomials of the same degrees from `start`; `None` if the counts do not determine them.
-pub(super) fn refine(layers: &[Layer], start: &Polynomials, bounds: &Bounds, effort: Effort) -> Option<Joint> {
+pub(super) fn refine(
+    layers: &[Layer],
+    start: &Polynomials,
+    bounds: &Bounds,
+    effort: Effort,
+) -> Option<Joint> {
     let residuals = JointResiduals::new(layers, start);
     // Coefficients between the bounds keep the polynomial between them.
     let limits: Vec<[f64; 2]> =

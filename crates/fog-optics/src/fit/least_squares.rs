@@ -102,7 +102,8 @@ pub(super) fn minimise(
         ..MPConfig::new()
     };
     let mut problem = Problem { residuals, config, parameters: bounds.iter().map(limit).collect() };
-    let mut parameters: Vec<f64> = start.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)).collect();
+    let mut parameters: Vec<f64> =
+        start.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)).collect();
     let status = problem.mpfit(&mut parameters).ok()?;
     let sum = status.best_norm;
     (sum.is_finite()).then(|| Minimum { parameters, sum, converged: status.success != MPSuccess::MaxIter })
@@ -156,6 +157,10 @@ mod tests {
         }
         assert_eq!(minimise(&NoNumbers, &[0.0], &[[-1.0, 1.0]], THOROUGH), None);
         let bounds = [[-5.0, 5.0]; 3];
-        assert_eq!(minimise(&Valley, &[0.0; 3], &bounds, THOROUGH), None, "three parameters of two residuals");
+        assert_eq!(
+            minimise(&Valley, &[0.0; 3], &bounds, THOROUGH),
+            None,
+            "three parameters of two residuals"
+        );
     }
 }

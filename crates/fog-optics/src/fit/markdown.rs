@@ -10,7 +10,9 @@ fn significant(x: f64, digits: usize) -> String {
     let text = format!("{x:.*e}", digits - 1);
     let Some((_, exponent)) = text.split_once('e') else { return text };
     match exponent.parse::<i32>() {
-        Ok(e) if (-3..6).contains(&e) => format!("{x:.*}", (digits as i32 - 1 - e).max(0) as usize),
+        Ok(e) if (-3..(digits as i32).max(4)).contains(&e) => {
+            format!("{x:.*}", (digits as i32 - 1 - e).max(0) as usize)
+        }
         _ => text,
     }
 }
@@ -49,6 +51,54 @@ impl Fit {
         text
     }
 
+    /// The fit in a few lines, for a terminal.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        let heights: Vec<String> = self.heights_m.iter().map(f64::to_string).collect();
+        let bad: usize = self.altitudes.iter().map(|a| a.bad_bins.len()).sum();
+        let set_aside = self.altitudes.iter().filter(|a| a.number_rejected).count();
+        let _ = writeln!(
+            text,
+            "{}: fog of {} m, {} altitudes ({} weak, {} rejected), {bad} bins and {set_aside} number densities set aside",
+            self.source,
+            heights.join(", "),
+            self.altitudes.len(),
+            self.count("weak"),
+            self.count("rejected")
+        );
+        let _ = writeln!(
+            text,
+            "RRSE: own fits {}, model {} (medians)",
+            percent(median(self.altitudes.iter().filter_map(|a| a.own.map(|own| own.rrse)))),
+            percent(median(self.altitudes.iter().map(|a| a.model_rrse)))
+        );
+        for shape in &self.shapes {
+            let at = |i: usize| {
+                format!("{} ± {}", significant(shape.curve[i][1], 4), significant(shape.curve[i][2], 2))
+            };
+            let degree = shape.coefficients.len() - 1;
+            let _ = writeln!(
+                text,
+                "  {:<12} degree {degree}       {:>17} at zeta 0   {:>17} at 0.5   {:>17} at 1",
+                shape.key,
+                at(0),
+                at(10),
+                at(20)
+            );
+        }
+        let number = &self.number;
+        let _ = writeln!(
+            text,
+            "  N(zeta, H)   degree {} and {} R² {:.5}, relative residuals {} rms",
+            number.degrees.zeta,
+            number.degrees.height,
+            number.r_squared,
+            percent(number.rms_relative)
+        );
+        text
+    }
+
     fn count(&self, standing: &str) -> usize {
         self.altitudes.iter().filter(|a| a.standing.word() == standing).count()
     }
@@ -73,9 +123,14 @@ impl Fit {
         }
         let _ = writeln!(
             text,
-            "- dispersion (variance over that of counting noise): {}{}",
+            "- dispersion (variance over that of counting noise): {} around the altitudes' own fits, {} around the common shape{}",
             significant(self.dispersion, 3),
-            if self.counting_noise_known { "" } else { " relative to counts in 1 m³; no volumes were given" }
+            significant(self.common_dispersion, 3),
+            if self.counting_noise_known {
+                ""
+            } else {
+                " relative to counts in 1 m³; no volumes were given"
+            }
         );
         let _ = writeln!(
             text,
@@ -97,7 +152,9 @@ impl Fit {
         text.push_str("\n## Shape over ζ = altitude / fog height\n\n");
         text.push_str("| parameter | polynomial | ζ = 0 | ζ = 0.5 | ζ = 1 | scatter | staged fit |\n|---|---|---|---|---|---|---|\n");
         for shape in &self.shapes {
-            let at = |i: usize| format!("{} ± {}", significant(shape.curve[i][1], 4), significant(shape.curve[i][2], 2));
+            let at = |i: usize| {
+                format!("{} ± {}", significant(shape.curve[i][1], 4), significant(shape.curve[i][2], 2))
+            };
             let _ = writeln!(
                 text,
                 "| {} | {} | {} | {} | {} | {} | {} |",
@@ -126,7 +183,8 @@ impl Fit {
             percent(number.scatter)
         );
         let columns = number.degrees.height + 1;
-        let head: Vec<String> = (0..columns).map(|j| if j == 0 { "1".into() } else { format!("H^{j}") }).collect();
+        let head: Vec<String> =
+            (0..columns).map(|j| if j == 0 { "1".into() } else { format!("H^{j}") }).collect();
         let _ = writeln!(text, "| | {} |\n|---|{}", head.join(" | "), "---|".repeat(columns));
         for (i, row) in number.coefficients.iter().enumerate() {
             let cells: Vec<String> = row.iter().map(|c| significant(*c, 6)).collect();
@@ -195,7 +253,8 @@ impl Fit {
                 let _ = writeln!(text, "{place} {} | {} |", a.standing.word(), a.standing.reason());
             }
             if a.number_rejected {
-                let _ = writeln!(text, "{place} number density set aside | it stands out from the polynomial |");
+                let _ =
+                    writeln!(text, "{place} number density set aside | it stands out from the polynomial |");
             }
             for bin in a.bad_bins.iter().map(|&i| &a.spectrum.bins[i]) {
                 let _ = writeln!(
@@ -222,7 +281,9 @@ fn entry(entry: &CrossValidation, two: bool) -> String {
 }
 
 fn altitude_row(a: &AltitudeFit, text: &mut String) {
-    let number = a.number_density.map_or_else(String::new, |[n, e]| format!("{} ± {}", significant(n, 4), significant(e, 2)));
+    let number = a
+        .number_density
+        .map_or_else(String::new, |[n, e]| format!("{} ± {}", significant(n, 4), significant(e, 2)));
     let mut cells = vec![format!("{}", a.spectrum.altitude_m), number];
     match &a.own {
         Some(own) => {

@@ -227,9 +227,10 @@ fn check_row(quantity: Quantity, row: &Observation) -> Result<(), (&'static str,
         Some(volume) => {
             Err(("sample_volume_m3", format!("found {volume}; expected above 0 to {VOLUME_MAX_M3} m³")))
         }
-        None if quantity == Quantity::Count => {
-            Err(("sample_volume_m3", "found none; counts need the volume of air that they were taken from".into()))
-        }
+        None if quantity == Quantity::Count => Err((
+            "sample_volume_m3",
+            "found none; counts need the volume of air that they were taken from".into(),
+        )),
         None => Ok(()),
     }
 }
@@ -307,8 +308,12 @@ mod tests {
     #[test]
     fn approaches_are_merged() {
         let v = Some(1e-4);
-        let rows =
-            [row(2, 50.0, 5.0, 10.0, v), row(3, 20.0, 2.0, 1.0, v), row(4, 50.0, 2.0, 7.0, v), row(5, 50.0, 5.0, 30.0, v)];
+        let rows = [
+            row(2, 50.0, 5.0, 10.0, v),
+            row(3, 20.0, 2.0, 1.0, v),
+            row(4, 50.0, 2.0, 7.0, v),
+            row(5, 50.0, 5.0, 30.0, v),
+        ];
         let counts = Measurements::new("a", Quantity::Count, &rows).unwrap();
         assert!(counts.counting_noise_known());
         let [low, high] = counts.spectra() else { panic!("{counts:?}") };

@@ -22,16 +22,29 @@ impl ModelText<'_> {
         for line in self.comment {
             let _ = writeln!(text, "{}", format!("# {line}").trim_end());
         }
-        let _ = writeln!(text, "#\n# n(d, z) = L * lognormal(d; mu_L, sigma_L) + G * normal(d; mu_G, sigma_G)     [m^-3 um^-1], d in um");
-        let _ = writeln!(text, "# zeta = z / fog_height in [0, 1]. Polynomials list c0, c1, ... of sum c_i zeta^i.");
-        let _ = writeln!(text, "# L = N / (1 + r), G = N r / (1 + r), r = exp(ln_gl_ratio(zeta)), N = number density [m^-3].");
+        let _ = writeln!(
+            text,
+            "#\n# n(d, z) = L * lognormal(d; mu_L, sigma_L) + G * normal(d; mu_G, sigma_G)     [m^-3 um^-1], d in um"
+        );
+        let _ = writeln!(
+            text,
+            "# zeta = z / fog_height in [0, 1]. Polynomials list c0, c1, ... of sum c_i zeta^i."
+        );
+        let _ = writeln!(
+            text,
+            "# L = N / (1 + r), G = N r / (1 + r), r = exp(ln_gl_ratio(zeta)), N = number density [m^-3]."
+        );
         let [low, high] = self.diameter_range_um;
         let _ = writeln!(text, "diameter_range_um: {}", list(&[low, high]));
         let _ = writeln!(text, "measured_fog_heights_m: {}", list(self.heights_m));
         for (key, (coefficients, remark)) in SHAPE_KEYS.iter().zip(&self.shapes) {
             let _ = writeln!(text, "{key}: {}  # {remark}", list(coefficients));
         }
-        let _ = writeln!(text, "# N(zeta, H) = sum_ij number_density[i][j] zeta^i H^j, H in m. {}", self.number_remark);
+        let _ = writeln!(
+            text,
+            "# N(zeta, H) = sum_ij number_density[i][j] zeta^i H^j, H in m. {}",
+            self.number_remark
+        );
         let _ = writeln!(text, "number_density:");
         for row in self.number {
             let _ = writeln!(text, "  - {}", list(row));

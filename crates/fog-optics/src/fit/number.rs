@@ -29,9 +29,12 @@ pub(super) fn number(
             continue;
         }
         let layer = place.layer();
-        let droplets: f64 = layer.bins.iter().map(|bin| bin.droplets).sum();
+        let droplets = layer.droplets();
+        if droplets == 0.0 {
+            continue;
+        }
         let value = layer.number(&shape_at(shapes.polynomials(), layer.zeta));
-        let error = value * (survey.dispersion / droplets).sqrt();
+        let error = value * (shapes.dispersion / droplets).sqrt();
         values[i] = Some(([value, error], false));
         indices.push(i);
         points.push(Point { zeta: layer.zeta, height_m: place.spectrum.fog_height_m, value, error });
@@ -74,8 +77,11 @@ pub(super) fn number(
         let row = domain.row(trend.degrees, zeta, height);
         [height, zeta, dot(&row, &trend.fit.values), trend.fit.standard_error(&row)]
     };
-    let curves =
-        heights.iter().flat_map(|&h| (0..=20).map(move |i| (h, f64::from(i) / 20.0))).map(|(h, z)| curve(h, z)).collect();
+    let curves = heights
+        .iter()
+        .flat_map(|&h| (0..=20).map(move |i| (h, f64::from(i) / 20.0)))
+        .map(|(h, z)| curve(h, z))
+        .collect();
     let fit = NumberFit {
         coefficients: domain.powers(trend.degrees, &trend.fit.values),
         degrees: trend.degrees,

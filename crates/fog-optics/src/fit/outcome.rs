@@ -25,6 +25,8 @@ pub struct Fit {
     /// Variance of the counts around the fits over that of counting noise: median over the altitudes of deviance per degree
     /// of freedom, at least 1 where the volumes are known. Standard errors are multiplied by its root.
     pub dispersion: f64,
+    /// The same around the common shape polynomials instead of the altitudes' own fits: larger if shapes scatter.
+    pub common_dispersion: f64,
     /// Every altitude of the measurements, by height, then altitude.
     pub altitudes: Vec<AltitudeFit>,
     /// The five shape parameters over ζ, in the order of [`SHAPE_KEYS`].

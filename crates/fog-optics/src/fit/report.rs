@@ -1,5 +1,7 @@
 //! A fit as tables for machines: CSV with units in the names of the columns.
 
+use super::bins::shares;
+use super::measurements::Bin;
 use super::outcome::{Fit, OwnFit, SHAPE_KEYS};
 use crate::distribution::{SpectrumShape, gaussian, lognormal};
 use fog_core::math::f64::ln;
@@ -22,6 +24,19 @@ fn parts(number: f64, shape: &SpectrumShape, d_um: f64) -> [f64; 2] {
     ]
 }
 
+/// Mean densities over a bin in m⁻³ µm⁻¹ of a spectrum of `number` droplets per m³: the whole, lognormal, Gaussian.
+fn bin_means(number: f64, shape: &SpectrumShape, bin: &Bin) -> [f64; 3] {
+    let [mu_l, sigma_l, mu_g, sigma_g, ln_ratio] = values(shape);
+    // e^±700 leaves one of the parts alone.
+    let alone = |ln_ratio: f64| {
+        let mut share = Vec::new();
+        shares(&[mu_l, sigma_l, mu_g, sigma_g, ln_ratio], &[*bin], &mut share);
+        number * share[0].value / bin.width_um()
+    };
+    let r = shape.gl_ratio;
+    [alone(ln_ratio), alone(-700.0) / (1.0 + r), alone(700.0) * r / (1.0 + r)]
+}
+
 /// Values of a shape in the order of [`SHAPE_KEYS`].
 pub(super) fn values(shape: &SpectrumShape) -> [f64; 5] {
     [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)]
@@ -35,7 +50,11 @@ fn cell(text: &str) -> String {
 /// A number in a CSV cell: seven significant digits.
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
-    if rounded == 0.0 || (1e-3..1e7).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+    if rounded == 0.0 || (1e-3..1e7).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 impl Fit {
@@ -63,7 +82,9 @@ impl Fit {
                 short(s.droplets()),
             ];
             match a.number_density {
-                Some([value, error]) => cells.extend([short(value), short(error), a.number_rejected.to_string()]),
+                Some([value, error]) => {
+                    cells.extend([short(value), short(error), a.number_rejected.to_string()])
+                }
                 None => cells.extend(["", "", ""].map(String::from)),
             }
             cells.push(short(a.model_rrse));
@@ -74,7 +95,11 @@ impl Fit {
                     for (value, error) in values(&own.shape).iter().zip(own.shape_errors) {
                         cells.extend([short(*value), short(error)]);
                     }
-                    cells.extend([short(own.rrse), short(own.deviance_per_freedom), own.agreeing_starts.to_string()]);
+                    cells.extend([
+                        short(own.rrse),
+                        short(own.deviance_per_freedom),
+                        own.agreeing_starts.to_string(),
+                    ]);
                 }
                 None => cells.extend(std::iter::repeat_n(String::new(), 15)),
             }
@@ -101,7 +126,7 @@ impl Fit {
     }
 
     /// `spectra.csv`: a row for each bin with the measured density, the altitude's own fit with its two parts, and the
-    /// model, all in m⁻³ µm⁻¹ at the middle of the bin but the measured one, which is the bin's mean.
+    /// model, all in m⁻³ µm⁻¹ and means over the bin.
     #[must_use]
     pub fn spectra_csv(&self) -> String {
         let mut text = String::from(
@@ -111,14 +136,12 @@ impl Fit {
         for a in &self.altitudes {
             let s = &a.spectrum;
             for (i, bin) in s.bins.iter().enumerate() {
-                let middle = 0.5 * (bin.low_um + bin.high_um);
                 let own = a.own.map_or_else(
                     || [""; 3].map(String::from),
-                    |own| {
-                        let [lognormal, gaussian] = own.parts_1_m3_um(middle);
-                        [lognormal + gaussian, lognormal, gaussian].map(short)
-                    },
+                    |own| bin_means(own.number_density_1_m3, &own.shape, bin).map(short),
                 );
+                let number = self.model.number_density_1_m3(s.zeta(), s.fog_height_m);
+                let [model, ..] = bin_means(number, &self.model.shape(s.zeta()), bin);
                 let _ = writeln!(
                     text,
                     "{},{},{},{},{},{},{},{}",
@@ -129,7 +152,7 @@ impl Fit {
                     short(bin.density_1_m3_um()),
                     a.bad_bins.contains(&i),
                     own.join(","),
-                    short(self.model.density_1_m3_um(middle, s.zeta(), s.fog_height_m)),
+                    short(model),
                 );
             }
         }

@@ -21,6 +21,8 @@ pub(super) struct Shapes {
     pub(super) staged: Polynomials,
     /// Of all counts at once, if asked for and determined.
     pub(super) joint: Option<Joint>,
+    /// Deviance per degree of freedom around the common polynomials, median over the altitudes, at least the dispersion.
+    pub(super) dispersion: f64,
     /// The last comparison of degrees on the way to `joint`.
     pub(super) steps: Vec<DegreeStep>,
 }
@@ -31,7 +33,7 @@ impl Shapes {
     }
 
     /// Standard error of the polynomial of a parameter at ζ.
-    pub(super) fn error(&self, parameter: usize, zeta: f64, dispersion: f64) -> f64 {
+    pub(super) fn error(&self, parameter: usize, zeta: f64) -> f64 {
         let Some(joint) = &self.joint else {
             let trend = &self.trends[parameter];
             return trend.fit.standard_error(&bernstein(trend.degrees.zeta, zeta));
@@ -41,7 +43,7 @@ impl Shapes {
         let row = bernstein(count - 1, zeta);
         let inner = |i: usize| dot(&joint.covariance[first + i][first..first + count], &row);
         let variance: f64 = (0..count).map(|i| row[i] * inner(i)).sum();
-        (variance.max(0.0) * dispersion).sqrt()
+        (variance.max(0.0) * self.dispersion).sqrt()
     }
 }
 
@@ -53,12 +55,18 @@ pub(super) fn shapes(
     let mut trends = staged(survey, settings)?;
     let staged = std::array::from_fn(|p| trends[p].fit.values.clone());
     let (mut joint, mut steps) = (None, Vec::new());
+    let mut dispersion = survey.dispersion;
     if settings.refine {
         // With the degrees of the stages, then with those that all counts ask for.
         joint = all_at_once(survey, settings, &staged);
-        if let Some(first) = &joint {
-            let (start, found) =
-                search(&layers(survey), &first.polynomials, &survey.bounds, settings.max_shape_degree, progress);
+        if let Some((first, _)) = &joint {
+            let (start, found) = search(
+                &layers(survey),
+                &first.polynomials,
+                &survey.bounds,
+                settings.max_shape_degree,
+                progress,
+            );
             steps = found;
             joint = all_at_once(survey, settings, &start).or(joint);
         }
@@ -66,7 +74,11 @@ pub(super) fn shapes(
     for trend in &mut trends {
         trend.outliers.clear();
     }
-    Ok(Shapes { trends, staged, joint, steps })
+    let joint = joint.map(|(joint, misfit)| {
+        dispersion = dispersion.max(misfit);
+        joint
+    });
+    Ok(Shapes { trends, staged, joint, dispersion, steps })
 }
 
 /// Polynomials of the altitudes' own fits; altitudes that stand out in any parameter are rejected.
@@ -94,14 +106,14 @@ fn staged(survey: &mut Survey<'_>, settings: &FitSettings) -> Result<Vec<Trend>,
 }
 
 /// All counts at once. Bins and altitudes that stand out from the common polynomials are set aside, those that do not are
-/// taken back, until nothing changes.
-fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, from: &Polynomials) -> Option<Joint> {
-    let mut joint: Option<Joint> = None;
+/// taken back, until nothing changes. With the altitudes' median misfit.
+fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, from: &Polynomials) -> Option<(Joint, f64)> {
+    let mut joint: Option<(Joint, f64)> = None;
     for _ in 0..4 {
-        let start = joint.as_ref().map_or(from, |joint| &joint.polynomials);
+        let start = joint.as_ref().map_or(from, |(joint, _)| &joint.polynomials);
         let new = refine(&layers(survey), start, &survey.bounds, THOROUGH)?;
-        let changed = set_aside(survey, settings, &new.polynomials);
-        joint = Some(new);
+        let (changed, misfit) = set_aside(survey, settings, &new.polynomials);
+        joint = Some((new, misfit));
         if !changed {
             break;
         }
@@ -112,17 +124,17 @@ fn all_at_once(survey: &mut Survey<'_>, settings: &FitSettings, from: &Polynomia
 /// Bins of the altitudes that take part.
 fn layers(survey: &Survey<'_>) -> Vec<Layer> {
     let taking_part = |place: &&Place<'_>| !matches!(place.standing, Standing::Rejected(_));
-    survey.places.iter().filter(taking_part).map(Place::layer).filter(|layer| layer.bins.len() > 1).collect()
+    let layers = survey.places.iter().filter(taking_part).map(Place::layer);
+    layers.filter(|layer| layer.bins.len() > 1 && layer.droplets() > 0.0).collect()
 }
 
-/// Applies the outlier rule to bins and altitudes, given the common polynomials; true if anything changed.
-fn set_aside(survey: &mut Survey<'_>, settings: &FitSettings, polynomials: &Polynomials) -> bool {
+/// Applies the outlier rule to bins and altitudes, given the common polynomials. Tells if anything changed, and the median
+/// deviance per degree of freedom.
+fn set_aside(survey: &mut Survey<'_>, settings: &FitSettings, polynomials: &Polynomials) -> (bool, f64) {
     let with_droplets: Vec<usize> =
         (0..survey.places.len()).filter(|&i| survey.places[i].spectrum.droplets() > 0.0).collect();
-    let all_residuals: Vec<Vec<f64>> = with_droplets
-        .iter()
-        .map(|&i| bin_residuals(&survey.places[i], polynomials))
-        .collect();
+    let all_residuals: Vec<Vec<f64>> =
+        with_droplets.iter().map(|&i| bin_residuals(&survey.places[i], polynomials)).collect();
     let least = if survey.noise_known { 1.0 } else { 1e-6 };
     let scale = robust_scale(all_residuals.iter().flatten().copied()).max(least);
     let limit = settings.outlier_mads * scale;
@@ -162,7 +174,7 @@ fn set_aside(survey: &mut Survey<'_>, settings: &FitSettings, polynomials: &Poly
             (None, standing) => standing.clone(),
         };
     }
-    changed
+    (changed, typical)
 }
 
 /// Residuals of all bins of an altitude, its number density taken from the bins that were kept.
@@ -171,4 +183,3 @@ fn bin_residuals(place: &Place<'_>, polynomials: &Polynomials) -> Vec<f64> {
     let all = Layer { zeta: place.spectrum.zeta(), bins: place.spectrum.bins.clone() };
     all.residuals(&shape, place.layer().number(&shape))
 }
-

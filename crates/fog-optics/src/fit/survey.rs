@@ -174,7 +174,13 @@ pub(super) fn survey<'a>(
         let limit = 4.0 * survey.dispersion;
         let again = |place: &Place<'_>| {
             let own = place.own.as_ref()?;
-            let new = altitude::fit_near(place.spectrum, &near(place.spectrum), &bounds, noise_known, settings.outlier_mads);
+            let new = altitude::fit_near(
+                place.spectrum,
+                &near(place.spectrum),
+                &bounds,
+                noise_known,
+                settings.outlier_mads,
+            );
             step();
             new.filter(|new| new.score <= own.score + limit)
                 .map(|new| Lone { agreeing_starts: own.agreeing_starts, ..new })

@@ -92,7 +92,8 @@ pub fn flights(model: &AdvectionModel, settings: &FlightSettings) -> Result<Vec<
     for &height in &settings.heights_m {
         // Middles of the steps, up to the layer's top.
         let steps = (height / settings.altitude_step_m + 0.5).floor() as u64;
-        for (approach, step) in (0..settings.approaches as u64).flat_map(|a| (0..steps).map(move |s| (a, s))) {
+        for (approach, step) in (0..settings.approaches as u64).flat_map(|a| (0..steps).map(move |s| (a, s)))
+        {
             let altitude = ((step as f64 + 0.5) * settings.altitude_step_m).min(height);
             let shape = model.shape(altitude / height);
             let shape: Shape = [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)];
@@ -120,7 +121,11 @@ pub fn flights(model: &AdvectionModel, settings: &FlightSettings) -> Result<Vec<
 ///
 /// # Errors
 /// As [`flights`].
-pub fn csv(model: &AdvectionModel, settings: &FlightSettings, model_name: &str) -> Result<String, OpticsError> {
+pub fn csv(
+    model: &AdvectionModel,
+    settings: &FlightSettings,
+    model_name: &str,
+) -> Result<String, OpticsError> {
     let rows = flights(model, settings)?;
     let comment = format!(
         "Synthetic flights: Poisson counts drawn from the fog model {model_name} with seed {}.\n\
@@ -145,7 +150,8 @@ mod tests {
     #[test]
     fn flights_have_the_model_s_means() {
         let model = AdvectionModel::arcata().unwrap();
-        let settings = FlightSettings { heights_m: vec![100.0], sample_volume_m3: 0.01, ..FlightSettings::arcata() };
+        let settings =
+            FlightSettings { heights_m: vec![100.0], sample_volume_m3: 0.01, ..FlightSettings::arcata() };
         let data = measurements(&model, &settings).unwrap();
         assert_eq!(data.spectra().len(), 10);
         let spectrum = &data.spectra()[4];
@@ -155,7 +161,8 @@ mod tests {
             // Simpson's rule over the bin.
             let density = |d: f64| model.density_1_m3_um(d, 0.45, 100.0);
             let middle = 0.5 * (bin.low_um + bin.high_um);
-            let quarters = 4.0 * (density(0.5 * (bin.low_um + middle)) + density(0.5 * (middle + bin.high_um)));
+            let quarters =
+                4.0 * (density(0.5 * (bin.low_um + middle)) + density(0.5 * (middle + bin.high_um)));
             let mean = (density(bin.low_um) + density(bin.high_um) + quarters + 2.0 * density(middle)) / 12.0;
             let expected = 0.02 * 3.0 * mean;
             let deviation = (bin.droplets - expected).abs() / expected.sqrt();

@@ -134,7 +134,9 @@ fn candidates(points: usize, distinct_zeta: usize, most: Degrees) -> Vec<Degrees
     let mut all: Vec<Degrees> = (0..=most.zeta)
         .flat_map(|zeta| (0..=most.height).map(move |height| Degrees { zeta, height }))
         // Leave at least two points per coefficient, and two altitudes per coefficient over ζ.
-        .filter(|d| d.coefficients() == 1 || (2 * d.coefficients() <= points && 2 * (d.zeta + 1) <= distinct_zeta))
+        .filter(|d| {
+            d.coefficients() == 1 || (2 * d.coefficients() <= points && 2 * (d.zeta + 1) <= distinct_zeta)
+        })
         .collect();
     all.sort_by_key(|d| (d.coefficients(), d.height));
     all
@@ -222,8 +224,9 @@ fn outliers(points: &[Point], domain: &Domain, settings: &TrendSettings) -> Opti
     }
     let spread = robust_scale(residuals.iter().copied());
     let extra = (spread * spread - typical * typical).max(0.0);
-    let standard: Vec<f64> =
-        (0..points.len()).map(|i| residuals[i] / (points[i].error * points[i].error + extra).sqrt()).collect();
+    let standard: Vec<f64> = (0..points.len())
+        .map(|i| residuals[i] / (points[i].error * points[i].error + extra).sqrt())
+        .collect();
     let unit = robust_scale(standard.iter().copied()).max(1.0);
     let deviation = standard.iter().map(|z| z / unit).enumerate();
     Some(deviation.filter(|(_, z)| z.abs() > settings.outlier_mads).collect())
@@ -260,8 +263,8 @@ fn cross_validate(points: &[Point], domain: &Domain, settings: &TrendSettings) -
                 errors[k] = error * error / variance(p);
             }
         }
-        let valid =
-            weighted(points, domain, degrees, settings.relative).is_some_and(|(fit, _)| domain.holds(degrees, &fit));
+        let valid = weighted(points, domain, degrees, settings.relative)
+            .is_some_and(|(fit, _)| domain.holds(degrees, &fit));
         Some((degrees, errors, valid))
     };
     let all: Vec<(Degrees, Vec<f64>, bool)> = candidates.into_iter().filter_map(errors).collect();
@@ -278,7 +281,8 @@ fn mean(values: &[f64]) -> f64 {
 /// error of that difference, point by point (the rule of Breiman et al. 1984, with paired errors).
 fn table(all: &[(Degrees, Vec<f64>, bool)]) -> Vec<CrossValidation> {
     let valid = all.iter().filter(|(_, _, valid)| *valid);
-    let Some((_, best, _)) = valid.reduce(|best, entry| if mean(&entry.1) < mean(&best.1) { entry } else { best })
+    let Some((_, best, _)) =
+        valid.reduce(|best, entry| if mean(&entry.1) < mean(&best.1) { entry } else { best })
     else {
         return Vec::new();
     };
@@ -287,7 +291,8 @@ fn table(all: &[(Degrees, Vec<f64>, bool)]) -> Vec<CrossValidation> {
         let differences: Vec<f64> = errors.iter().zip(best).map(|(e, b)| e - b).collect();
         let excess = mean(&differences);
         let n = differences.len() as f64;
-        let spread = differences.iter().map(|d| (d - excess) * (d - excess)).sum::<f64>() / (n - 1.0).max(1.0);
+        let spread =
+            differences.iter().map(|d| (d - excess) * (d - excess)).sum::<f64>() / (n - 1.0).max(1.0);
         let error = (spread / n).sqrt();
         let chosen = *valid && !found && excess <= error;
         found |= chosen;
