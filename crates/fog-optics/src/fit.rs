@@ -42,6 +42,7 @@ mod outcome;
 mod poisson;
 mod report;
 mod shapes;
+mod starts;
 mod survey;
 pub mod synthetic;
 #[cfg(test)]

@@ -20,7 +20,7 @@ DIR gets report.md, fits.csv, parameters.csv and spectra.csv.
 Examples:
   fogbank fit flights.csv --out model.yaml --report report
   fogbank fit synthetic --out flights.csv           counts that a probe would bring home
-  fogbank fit synthetic --out fine.csv --bins 2,47,1 --sample-volume-cm3 200 --seed 7";
+  fogbank fit synthetic --out fine.csv --bins 1.5,46.5,1 --sample-volume-cm3 200 --seed 7";
 
 /// Arguments of `fit`.
 #[derive(Debug, ClapArgs)]
@@ -73,7 +73,7 @@ pub(crate) struct SyntheticArgs {
     #[arg(long, value_name = "M", default_value_t = 10.0)]
     pub(crate) altitude_step_m: f64,
     /// Diameter bins in um: from the first edge to the last, and their width.
-    #[arg(long = "bins", value_name = "LOW,HIGH,WIDTH", value_delimiter = ',', default_value = "2,47,3")]
+    #[arg(long = "bins", value_name = "LOW,HIGH,WIDTH", value_delimiter = ',', default_value = "1.5,46.5,3")]
     pub(crate) bins_um: Vec<f64>,
     /// Air in cm3 that each approach samples at each altitude [default: what a probe of 0.3 mm2 sweeps on 10 m of a 3 degree
     /// glide slope, 57.3].

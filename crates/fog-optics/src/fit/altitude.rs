@@ -4,12 +4,15 @@ use super::bins::{SHAPES, Shape, deviance_residual, shares, tamed};
 use super::least_squares::{Minimum, Residuals, THOROUGH, minimise};
 use super::linear::{inverse, robust_scale};
 use super::measurements::{Bin, Spectrum};
+use super::starts::starts;
 use fog_core::math::f64::{exp, ln};
 
 /// Parameters of an altitude: ln N, then the shape.
 pub(super) const PARAMETERS: usize = SHAPES + 1;
 /// Least number of bins of a spectrum that is fitted by itself: one more than the parameters.
 pub const BINS_MIN: usize = PARAMETERS + 1;
+/// Least number of bins with droplets of such a spectrum.
+pub(super) const FILLED_MIN: usize = 4;
 /// Share of the bins, the best ones, whose residuals judge between starts.
 const TRUSTED: f64 = 0.85;
 /// Largest share of a spectrum's bins that is set aside as bad.
@@ -127,7 +130,7 @@ fn trusted_sum(residuals: &[f64]) -> f64 {
     squares.iter().sum()
 }
 
-/// Fits one altitude, from several starts; `None` if it has fewer than [`BINS_MIN`] bins, fewer than four with droplets, or
+/// Fits one altitude, from several starts; `None` if it has fewer than [`BINS_MIN`] bins, fewer than [`FILLED_MIN`] with droplets, or
 /// no start led anywhere.
 pub(super) fn fit(
     spectrum: &Spectrum,
@@ -136,7 +139,7 @@ pub(super) fn fit(
     outlier_mads: f64,
 ) -> Option<Lone> {
     let bins = &spectrum.bins;
-    if bins.len() < BINS_MIN || bins.iter().filter(|bin| bin.droplets > 0.0).count() < 4 {
+    if bins.len() < BINS_MIN || bins.iter().filter(|bin| bin.droplets > 0.0).count() < FILLED_MIN {
         return None;
     }
     let starts: Vec<Vec<f64>> = starts(bins).iter().map(|shape| with_number(bins, shape)).collect();
@@ -309,33 +312,4 @@ fn with_number(bins: &[Bin], shape: &Shape) -> Vec<f64> {
     let expected: f64 = share.iter().zip(bins).map(|(share, bin)| share.value * bin.volume_m3).sum();
     let droplets: f64 = bins.iter().map(|bin| bin.droplets).sum();
     std::iter::once(ln(droplets / expected)).chain(*shape).collect()
-}
-
-/// Shapes to start from, made from the spectrum's most frequent diameter and its quartiles.
-fn starts(bins: &[Bin]) -> Vec<Shape> {
-    let [q1, q2, q3] = [0.25, 0.5, 0.75].map(|share| quantile(bins, share));
-    let densest = |best: &Bin, bin: &Bin| bin.density_1_m3_um() > best.density_1_m3_um();
-    let mode = bins.iter().fold(bins[0], |best, bin| if densest(&best, bin) { *bin } else { best });
-    let mode = 0.5 * (mode.low_um + mode.high_um);
-    let mut starts = Vec::new();
-    for centre in [mode, q2, q3] {
-        for (mu_l, sigma_l) in [(q2, 0.8), (q1, 0.5), (q3, 0.9)] {
-            starts.push([ln(mu_l), sigma_l, centre, 0.25 * centre, 0.0]);
-        }
-    }
-    starts.push([ln(q2), 0.8, mode, 0.12 * mode, -1.0]);
-    starts
-}
-
-/// Diameter in µm below which a share of the measured droplets lies, linear within bins.
-fn quantile(bins: &[Bin], share: f64) -> f64 {
-    let number = |bin: &Bin| bin.droplets / bin.volume_m3;
-    let mut left = share * bins.iter().map(number).sum::<f64>();
-    for bin in bins {
-        if number(bin) >= left && number(bin) > 0.0 {
-            return (bin.low_um + bin.width_um() * left / number(bin)).max(0.1);
-        }
-        left -= number(bin);
-    }
-    bins[bins.len() - 1].high_um
 }

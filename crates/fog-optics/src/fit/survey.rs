@@ -1,6 +1,6 @@
 //! Every altitude fitted by itself, and what is known of each on the way to the model.
 
-use super::altitude::{self, BINS_MIN, Bounds, Lone, PARAMETERS};
+use super::altitude::{self, BINS_MIN, Bounds, FILLED_MIN, Lone, PARAMETERS};
 use super::bins::{SHAPES, Shape};
 use super::joint::Layer;
 use super::linear::{dot, median};
@@ -115,7 +115,10 @@ fn standing(spectrum: &Spectrum, own: Option<&Lone>, bounds: &Bounds) -> Standin
     let filled = spectrum.bins.iter().filter(|bin| bin.droplets > 0.0).count();
     match own {
         None if bins < BINS_MIN => weak(format!("{bins} bins; a fit by itself needs {BINS_MIN}")),
-        None => weak(format!("{filled} bins with droplets; a fit by itself needs 4")),
+        None if filled < FILLED_MIN => {
+            weak(format!("{filled} bins with droplets; a fit by itself needs {FILLED_MIN}"))
+        }
+        None => weak("no start led to a fit".into()),
         Some(own) if own.errors.is_none() => weak("its counts do not determine all parameters".into()),
         Some(own) if bounds.touched(&own.shape) => weak("a parameter is at its bound".into()),
         Some(_) => Standing::Used,

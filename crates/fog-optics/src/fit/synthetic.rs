@@ -34,14 +34,15 @@ pub struct FlightSettings {
 }
 
 impl FlightSettings {
-    /// As in Zak 1994 and the paper: fog of 100, 180 and 260 m, steps of 10 m, 15 bins of 3 µm from 2 to 47 µm (range 0 of an
-    /// FSSP-100), two approaches, each of which samples what the probe's area sweeps on 10 m of a 3° glide slope: 57 cm³.
+    /// As in Zak 1994 and the paper: fog of 100, 180 and 260 m, steps of 10 m, 15 bins of 3 µm with middles from 3 to 45 µm
+    /// (widest range of an FSSP-100: NCAR EOL, "Bin sizes for original FSSP-100"), two approaches, each of which samples what
+    /// the probe's area sweeps on 10 m of a 3° glide slope: 57 cm³.
     #[must_use]
     pub fn arcata() -> Self {
         Self {
             heights_m: vec![100.0, 180.0, 260.0],
             altitude_step_m: 10.0,
-            bin_edges_um: (0..=15).map(|i| 2.0 + 3.0 * f64::from(i)).collect(),
+            bin_edges_um: (0..=15).map(|i| 1.5 + 3.0 * f64::from(i)).collect(),
             sample_volume_m3: PROBE_AREA_M2 * 10.0 / SIN_GLIDE_SLOPE,
             approaches: 2,
             seed: 1,

@@ -13,10 +13,10 @@ fn arcata() -> AdvectionModel {
     AdvectionModel::arcata().unwrap()
 }
 
-/// Flights with bins of a width in µm from 2 to 47, of a volume in cm³.
+/// Flights with bins of a width in µm from 1.5 to 46.5, of a volume in cm³.
 fn settings(width_um: u32, volume_cm3: f64, seed: u64) -> FlightSettings {
     FlightSettings {
-        bin_edges_um: (0..=45 / width_um).map(|i| 2.0 + f64::from(width_um * i)).collect(),
+        bin_edges_um: (0..=45 / width_um).map(|i| 1.5 + f64::from(width_um * i)).collect(),
         sample_volume_m3: 1e-6 * volume_cm3,
         seed,
         ..FlightSettings::arcata()
@@ -201,7 +201,7 @@ fn one_height_gives_a_density_without_height() {
 #[test]
 fn part_of_a_layer_is_marked_as_extrapolated() {
     let mut rows = flights(&arcata(), &settings(3, 57.0, 1)).unwrap();
-    rows.retain(|row| row.altitude_m > 0.3 * row.fog_height_m && row.low_um > 5.5);
+    rows.retain(|row| row.altitude_m > 0.3 * row.fog_height_m && row.low_um > 4.0);
     let found = run(Quantity::Count, &rows).unwrap();
     assert!(
         found.warnings.iter().any(|w| w.contains("the model extrapolates beyond")),
@@ -292,13 +292,13 @@ fn what_cannot_be_fitted_is_refused_with_a_reason() {
     };
     let part = |keep: &dyn Fn(&Observation) -> bool| rows.iter().filter(|row| keep(row)).copied().collect();
     refuse(
-        part(&|row| row.low_um < 20.0),
+        part(&|row| row.low_um < 19.0),
         &format!("too few bins: at most 6 at an altitude; six parameters need at least {BINS_MIN}"),
     );
     refuse(part(&|row| row.fog_height_m == 260.0 && row.altitude_m > 230.0), "too few altitudes: 3 of 3");
     refuse(rows.iter().map(|row| Observation { value: 0.0, ..*row }).collect(), "no droplets");
     let one_bin =
-        |row: &Observation| Observation { value: if row.low_um == 8.0 { row.value } else { 0.0 }, ..*row };
+        |row: &Observation| Observation { value: if row.low_um == 7.5 { row.value } else { 0.0 }, ..*row };
     refuse(rows.iter().map(one_bin).collect(), "too few altitudes: 0 of 54");
 
     let data = Measurements::new("f", Quantity::Count, &rows).unwrap();
@@ -335,7 +335,7 @@ fn nonsense_does_no_harm() {
         make(&mut |_, _| 1e15),
         make(&mut |_, u| if u < 0.3 { 1.0 } else { 0.0 }),
         make(&mut |row, u| if row.low_um < 3.0 { 1e6 * u } else { 1.0 }),
-        make(&mut |row, u| if (row.low_um - 26.0).abs() < 5.0 { 1e5 } else { u }),
+        make(&mut |row, u| if (row.low_um - 25.5).abs() < 5.0 { 1e5 } else { u }),
         make(&mut |row, _| 1e4 * row.altitude_m / (1.0 + row.low_um)),
         make(&mut |row, u| if row.altitude_m < 60.0 { 1e3 * u } else { 0.0 }),
     ];
