@@ -269,10 +269,9 @@ fn tables_have_a_row_for_everything() {
     for line in spectra.lines().skip(1) {
         let x: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap_or(0.0)).collect();
         assert!((x[6] - x[7] - x[8]).abs() <= 1e-5 * x[6], "{line}");
-        assert!(
-            x[4] < 1e7 || ((x[6] / x[4] - 1.0).abs() < 0.1 && (x[9] / x[4] - 1.0).abs() < 0.15),
-            "{line}"
-        );
+        let near = |fitted: f64, share: f64| x[4] < 1e7 || (fitted / x[4] - 1.0).abs() < share;
+        // Altitudes whose counts do not determine all parameters have no fit of their own.
+        assert!((line.contains(",,") || near(x[6], 0.1)) && near(x[9], 0.15), "{line}");
     }
     let own = found.altitudes[4].own.unwrap();
     assert!(own.rrse < 0.02 && own.agreeing_starts >= 3 && own.converged);
