@@ -262,7 +262,11 @@ impl Fit {
                     "{place} bin {} to {} µm set aside | {} droplets stand out from the fit |",
                     bin.low_um,
                     bin.high_um,
-                    significant(bin.droplets, 4)
+                    if self.counting_noise_known {
+                        bin.droplets.round().to_string()
+                    } else {
+                        significant(bin.droplets, 4)
+                    }
                 );
             }
         }

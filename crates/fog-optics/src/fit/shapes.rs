@@ -169,7 +169,7 @@ fn set_aside(survey: &mut Survey<'_>, settings: &FitSettings, polynomials: &Poly
         place.standing = match (reason, &place.standing) {
             (Some(reason), _) => Standing::Rejected(reason),
             (None, Standing::Rejected(reason)) => {
-                Standing::Weak(format!("{reason} in its own fit; its counts fit the common shape"))
+                Standing::Weak(format!("rejected at first ({reason}), but its counts fit the common shape"))
             }
             (None, standing) => standing.clone(),
         };
