@@ -32,7 +32,7 @@ forward! {
     pow(x, y) = powf / pow: "x to the power y.";
     cbrt(x) = cbrtf / cbrt: "Cube root.";
     erf(x) = erff / erf: "Error function.";
-    ln_gamma(x) = lgammaf / lgamma: "Natural logarithm of the absolute value of the gamma function.";
+    ln_gamma(x) = lgammaf / lgamma: "Logarithm of the absolute value of the gamma function.";
     ln_1p(x) = log1pf / log1p: "Natural logarithm of 1 + x, exact for small x.";
 }
 

@@ -16,7 +16,10 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+mod csv;
 pub mod distribution;
+pub mod droplets;
 pub mod error;
 pub mod fit;
 pub mod layer;
@@ -24,7 +27,10 @@ pub mod layer_csv;
 pub mod mean_diameter;
 pub mod mie;
 pub mod polydisperse;
+pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;

@@ -16,6 +16,7 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod droplets;
 mod error;
 mod fog;
 mod frame;

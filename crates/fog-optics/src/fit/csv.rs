@@ -60,7 +60,7 @@ pub fn parse(text: &str, file_name: &str) -> Result<Measurements, OpticsError> {
         let number = |i: usize| match cells[i].parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
             _ => {
-                let problem = format!("found `{}`; expected a finite number", cells[i]);
+                let problem = format!("found `{}`; expected a finite number", excerpt(cells[i]));
                 Err(fault(line, &header.columns[i], problem))
             }
         };
@@ -80,6 +80,12 @@ pub fn parse(text: &str, file_name: &str) -> Result<Measurements, OpticsError> {
     Measurements::new(file_name, header.quantity, &rows)
 }
 
+/// The beginning of a text that may be of any length, for a message.
+fn excerpt(text: &str) -> String {
+    let start: String = text.chars().take(80).collect();
+    if start.len() < text.len() { start + "…" } else { start }
+}
+
 /// Finds the columns; the error is a column and what is wrong with it.
 fn header(line: &str) -> Result<Header, (String, String)> {
     if line.is_empty() {
@@ -94,17 +100,19 @@ fn header(line: &str) -> Result<Header, (String, String)> {
         let known = PLACE.iter().chain(&values).any(|name| name == column);
         if !known && column != VOLUME && column != APPROACH {
             let problem = format!(
-                "found the header `{line}`; expected {}, one of {}, and {VOLUME} (needed for count)",
+                "found the header `{}`; expected {}, one of {}, and {VOLUME} (needed for count)",
+                excerpt(line),
                 PLACE.join(", "),
                 values.join(", ")
             );
-            return Err((column.clone(), problem));
+            return Err((excerpt(column), problem));
         }
     }
     let find = |name: &str| columns.iter().position(|column| column == name);
     let mut place = [0; 4];
     for (index, name) in place.iter_mut().zip(PLACE) {
-        *index = find(name).ok_or_else(|| (name.to_owned(), format!("not found in the header `{line}`")))?;
+        *index = find(name)
+            .ok_or_else(|| (name.to_owned(), format!("not found in the header `{}`", excerpt(line))))?;
     }
     let found: Vec<(Quantity, usize)> =
         Quantity::ALL.into_iter().filter_map(|q| find(q.column()).map(|i| (q, i))).collect();
@@ -183,6 +191,7 @@ mod tests {
     fn every_mistake_has_file_line_column_and_value() {
         for (text, place, value) in [
             (String::new(), "f.csv:1: column `fog_height_m`", "found no header"),
+            ("x".repeat(1000), "f.csv:1: column", "xxx…`; expected fog_height_m"),
             ("height,alt\n1,2\n".into(), "f.csv:1: column `height`", "`height,alt`"),
             (HEAD.replace("altitude_m,", ""), "f.csv:1: column `altitude_m`", "not found"),
             (
