@@ -2,6 +2,7 @@
 
 mod compare;
 mod figures;
+mod fit;
 mod fog_source;
 mod form;
 mod mie;
@@ -11,6 +12,7 @@ mod visibility;
 
 pub(crate) use compare::CompareArgs;
 pub(crate) use figures::{FigureFormat, FiguresArgs};
+pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
 pub(crate) use fog_source::FogSourceArgs;
 pub(crate) use form::FormArgs;
 pub(crate) use mie::MieArgs;
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Schema,
     /// Write one of the built-in scenes as a GLB file.
     Scene(SceneArgs),
+    /// Fit a fog model to measured droplet counts.
+    Fit(FitArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.

@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         args::Command::Plan(args) => commands::plan::run(&args),
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
+        args::Command::Fit(args) => commands::fit::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
         args::Command::Figures(args) => commands::figures::run(&args),
         args::Command::Visibility(args) => commands::visibility::run(&args),

@@ -33,6 +33,7 @@ forward! {
     cbrt(x) = cbrtf / cbrt: "Cube root.";
     erf(x) = erff / erf: "Error function.";
     ln_gamma(x) = lgammaf / lgamma: "Logarithm of the absolute value of the gamma function.";
+    ln_1p(x) = log1pf / log1p: "Natural logarithm of 1 + x, exact for small x.";
 }
 
 /// exp(x) in single precision for the hot loop: relative error below 1.5e-7 for x in [-87, 88]; 0 below, clamped above.

@@ -39,6 +39,14 @@ pub enum OpticsError {
         /// The value found and what is expected instead.
         problem: String,
     },
+    /// Measurements that read well but from which no fog model can be fitted.
+    #[error("{file}: {problem}")]
+    Fit {
+        /// Name of the measurements' file as given by the caller.
+        file: String,
+        /// What is missing, and what would do.
+        problem: String,
+    },
     /// Parameters or rows that make no droplet spectrum.
     #[error("droplet spectrum: {0}")]
     Distribution(String),

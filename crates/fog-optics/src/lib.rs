@@ -22,6 +22,7 @@ pub mod distribution;
 pub mod droplet_fog;
 pub mod droplets;
 pub mod error;
+pub mod fit;
 pub mod intensities;
 pub mod layer;
 pub mod layer_csv;

@@ -2,6 +2,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod figures;
+pub(crate) mod fit;
 mod fog_source;
 pub(crate) mod mie;
 pub(crate) mod optics;

@@ -9,6 +9,7 @@ mod determinism;
 mod droplets;
 mod failures;
 mod figures;
+mod fit;
 mod mie;
 mod mistakes;
 mod optics;
