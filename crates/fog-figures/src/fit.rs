@@ -8,41 +8,41 @@ use crate::{Figure, FiguresError};
 
 /// A measured spectrum at one altitude and the curve that was fitted to it.
 #[derive(Clone, Copy, Debug)]
-pub struct FitProfile<'a> {
+pub(crate) struct FitProfile<'a> {
     /// Height of the fog in m.
-    pub height_m: f64,
+    pub(crate) height_m: f64,
     /// Altitude over the fog's base in m.
-    pub altitude_m: f64,
+    pub(crate) altitude_m: f64,
     /// Measured: (diameter in µm, droplets in m⁻³ µm⁻¹).
-    pub measured: &'a [[f64; 2]],
+    pub(crate) measured: &'a [[f64; 2]],
     /// The fitted curve: (diameter in µm, droplets in m⁻³ µm⁻¹), diameters ascending.
-    pub fitted: &'a [[f64; 2]],
+    pub(crate) fitted: &'a [[f64; 2]],
     /// The curve of the general model, likewise; may be empty.
-    pub model: &'a [[f64; 2]],
+    pub(crate) model: &'a [[f64; 2]],
 }
 
 /// One parameter of the spectra over relative altitude: the fits of single altitudes and the polynomial through all of them.
 #[derive(Clone, Copy, Debug)]
-pub struct FitParameter<'a> {
+pub(crate) struct FitParameter<'a> {
     /// Its name as it stands in the CSV, for example `mu_l`.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// Label of the axis with the unit, for example `μ_G (µm)`.
-    pub label: &'a str,
+    pub(crate) label: &'a str,
     /// Fits: (height of the fog in m, relative altitude ζ, value).
-    pub fits: &'a [[f64; 3]],
+    pub(crate) fits: &'a [[f64; 3]],
     /// Coefficients c0, c1, … of the polynomial Σ c_i ζ^i.
-    pub polynomial: &'a [f64],
+    pub(crate) polynomial: &'a [f64],
 }
 
 /// Number density of one fog: measured and of the model.
 #[derive(Clone, Copy, Debug)]
-pub struct FitNumber<'a> {
+pub(crate) struct FitNumber<'a> {
     /// Height of the fog in m.
-    pub height_m: f64,
+    pub(crate) height_m: f64,
     /// Measured: (altitude in m, droplets in m⁻³).
-    pub measured: &'a [[f64; 2]],
+    pub(crate) measured: &'a [[f64; 2]],
     /// The model's curve: (altitude in m, droplets in m⁻³), altitudes ascending.
-    pub model: &'a [[f64; 2]],
+    pub(crate) model: &'a [[f64; 2]],
 }
 
 /// Spectra side by side.
@@ -54,7 +54,7 @@ const COLUMNS: usize = 3;
 ///
 /// # Errors
 /// If there is nothing to draw, or a value is not finite.
-pub fn fit_figures(
+pub(crate) fn fit_figures(
     profiles: &[FitProfile<'_>],
     parameters: &[FitParameter<'_>],
     numbers: &[FitNumber<'_>],

@@ -16,6 +16,7 @@
 mod chart;
 mod figures;
 mod fit;
+mod fit_report;
 mod raster;
 mod sheet;
 mod sources;
@@ -23,7 +24,7 @@ mod sunlight;
 #[cfg(test)]
 mod tests;
 
-pub use fit::{FitNumber, FitParameter, FitProfile, fit_figures};
+pub use fit_report::fit_report;
 pub use raster::WIDTH_PX;
 pub use sources::{PAPER_HEIGHTS_M, Sources};
 

@@ -1,8 +1,7 @@
 //! What holds for every figure, and what single figures must show.
 
-use crate::{
-    Figure, FiguresError, FitNumber, FitParameter, FitProfile, NAMES, PAPER_HEIGHTS_M, Sources, fit_figures,
-};
+use crate::fit::{FitNumber, FitParameter, FitProfile, fit_figures};
+use crate::{Figure, FiguresError, NAMES, PAPER_HEIGHTS_M, Sources, fit_report};
 use fog_core::math::PI;
 use fog_optics::advection::AdvectionModel;
 use resvg::tiny_skia::{Pixmap, Rect};
@@ -258,4 +257,22 @@ fn a_fit_is_drawn_with_its_data() {
     let error =
         fit_figures(&[], &[FitParameter { polynomial: &[f64::INFINITY], ..parameter }], &[]).unwrap_err();
     assert!(error.to_string().contains("mu_l"), "{error}");
+}
+
+#[test]
+fn a_real_fit_has_its_report_s_figures() {
+    let settings = fog_optics::fit::synthetic::FlightSettings {
+        heights_m: vec![100.0, 180.0],
+        altitude_step_m: 20.0,
+        ..fog_optics::fit::synthetic::FlightSettings::arcata()
+    };
+    let flights = fog_optics::fit::synthetic::measurements(&model(), &settings).unwrap();
+    let fit = fog_optics::fit::fit(&flights, &fog_optics::fit::FitSettings::default(), &|_| ()).unwrap();
+    let figures = fit_report(&fit).unwrap();
+    let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
+    assert_eq!(names, ["spectra_100", "spectra_180", "parameters", "number_density"]);
+    for (figure, words) in figures.iter().zip([1, 1, 2, 1]) {
+        check_picture(figure);
+        check_sheet(figure, words);
+    }
 }

@@ -41,6 +41,13 @@ pub struct SpectrumShape {
 }
 
 impl SpectrumShape {
+    /// μ_L, σ_L, μ_G, σ_G and ln(G : L): what a model file has polynomials for, in its order. ln(G : L) is −inf without a
+    /// Gaussian part.
+    #[must_use]
+    pub fn parameters(&self) -> [f64; 5] {
+        [self.mu_l, self.sigma_l, self.mu_g, self.sigma_g, ln(self.gl_ratio)]
+    }
+
     /// Density per droplet in µm⁻¹ at diameter `d_um`: (logn + r·Gauss)/(1 + r).
     ///
     /// Its integral over all diameters is 1; it is not renormalised over a truncated range, nor for the part of the

@@ -15,7 +15,7 @@ sample_volume_m3 gives the counting noise. Rows of the same place and bin (sever
 are merged. A bin without a row is a gap, not a zero. Lines that begin with # are comments.
 
 MODEL.yaml has the form of tables/advection/arcata.yaml.
-DIR gets report.md, fits.csv, parameters.csv and spectra.csv.
+DIR gets report.md, its figures as SVG and PNG, and the numbers in fits.csv, parameters.csv and spectra.csv.
 
 Examples:
   fogbank fit flights.csv --out model.yaml --report report

@@ -63,7 +63,8 @@ fn model(file: Option<&Path>) -> Result<AdvectionModel> {
     AdvectionModel::from_yaml(&text).with_context(|| file.display().to_string())
 }
 
-fn write(figure: &Figure, format: FigureFormat, dir: &Path) -> Result<()> {
+/// Writes one form of a figure into a folder, under the figure's name.
+pub(super) fn write(figure: &Figure, format: FigureFormat, dir: &Path) -> Result<()> {
     let path = dir.join(format!("{}.{}", figure.name, format.extension()));
     let written = match format {
         FigureFormat::Svg => std::fs::write(&path, &figure.svg),

@@ -1,8 +1,10 @@
 //! `fogbank fit`: a fog model from measured droplet counts, and counts from a fog model.
 
-use crate::args::{FitArgs, FitCommand, SyntheticArgs};
+use super::figures;
+use crate::args::{FigureFormat, FitArgs, FitCommand, SyntheticArgs};
 use crate::print;
 use anyhow::{Context, Result, bail, ensure};
+use fogbank::figures::fit_report;
 use fogbank::optics::advection::AdvectionModel;
 use fogbank::optics::fit::{self, Fit, FitSettings, synthetic};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -39,11 +41,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<ExitCode> {
 
     write(out, &found.model_yaml)?;
     if let Some(dir) = &args.report {
-        fs::create_dir_all(dir).with_context(|| format!("cannot make the folder {}", dir.display()))?;
-        write(&dir.join("report.md"), &found.report_markdown())?;
-        write(&dir.join("fits.csv"), &found.fits_csv())?;
-        write(&dir.join("parameters.csv"), &found.parameters_csv())?;
-        write(&dir.join("spectra.csv"), &found.spectra_csv())?;
+        write_report(&found, dir)?;
     }
     if !args.quiet {
         print::news(found.summary().trim_end());
@@ -54,6 +52,22 @@ pub(crate) fn run(args: &FitArgs) -> Result<ExitCode> {
     }
     warn(&found);
     Ok(ExitCode::SUCCESS)
+}
+
+/// Report, tables and figures of a fit, in a folder that is made if it is not there.
+fn write_report(found: &Fit, dir: &Path) -> Result<()> {
+    fs::create_dir_all(dir).with_context(|| format!("cannot make the folder {}", dir.display()))?;
+    let mut report = found.report_markdown();
+    report.push_str("\n## Figures\n");
+    for figure in fit_report(found)? {
+        figures::write(&figure, FigureFormat::Svg, dir)?;
+        figures::write(&figure, FigureFormat::Png, dir)?;
+        report.push_str(&format!("\n![{}]({}.png)\n", figure.title, figure.name));
+    }
+    write(&dir.join("report.md"), &report)?;
+    write(&dir.join("fits.csv"), &found.fits_csv())?;
+    write(&dir.join("parameters.csv"), &found.parameters_csv())?;
+    write(&dir.join("spectra.csv"), &found.spectra_csv())
 }
 
 fn write_synthetic(args: &SyntheticArgs) -> Result<ExitCode> {

@@ -16,9 +16,15 @@ fn flights_become_a_model_and_a_report() {
     assert!(said.contains("model: model.yaml") && said.contains("report: a/report/report.md"), "{said}");
     assert!(said.contains("mu_G         degree 1"), "{said}");
     let report = dir.path().join("a/report");
-    assert_eq!(names(&report), ["fits.csv", "parameters.csv", "report.md", "spectra.csv"]);
+    let figures = ["number_density", "parameters", "spectra_100", "spectra_180", "spectra_260"];
+    let mut files: Vec<String> =
+        figures.iter().flat_map(|f| [format!("{f}.png"), format!("{f}.svg")]).collect();
+    files.extend(["fits.csv", "parameters.csv", "report.md", "spectra.csv"].map(str::to_owned));
+    files.sort();
+    assert_eq!(names(&report), files);
     let text = fs::read_to_string(report.join("report.md")).unwrap();
     assert!(text.starts_with("# Fog model fitted to flights.csv\n") && text.contains("## Rules"), "{text}");
+    assert!(figures.iter().all(|f| text.contains(&format!("({f}.png)"))), "{text}");
 
     // The same bytes again, by one thread.
     let mut again =

@@ -12,7 +12,7 @@ use super::shapes::Shapes;
 use super::survey::{Place, Survey, freedom};
 use crate::advection::AdvectionModel;
 use crate::error::OpticsError;
-use fog_core::math::f64::{exp, ln};
+use fog_core::math::f64::exp;
 
 /// Range of the paper's Mie tables in µm (Sec. 5.3).
 const PAPER_RANGE_UM: [f64; 2] = [0.5, 60.0];
@@ -134,8 +134,7 @@ fn altitude_fit(
     let spectrum = place.spectrum;
     let own = place.own.as_ref().and_then(|own| own_fit(place, own, dispersion));
     let zeta = spectrum.zeta();
-    let shape = model.shape(zeta);
-    let shape: Shape = [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)];
+    let shape: Shape = model.shape(zeta).parameters();
     let of_model = model.number_density_1_m3(zeta, spectrum.fog_height_m);
     AltitudeFit {
         spectrum: spectrum.clone(),
@@ -215,8 +214,7 @@ fn warnings(fit: &Fit, settings: &FitSettings) -> Vec<String> {
         bins().fold((f64::INFINITY, 0.0f64), |(low, high), b| (low.min(b.low_um), high.max(b.high_um)));
     let everything = [Bin { low_um: least, high_um: most, droplets: 0.0, volume_m3: 1.0, line: 0, rows: 1 }];
     let outside = (0..=20).map(|i| {
-        let shape = fit.model.shape(f64::from(i) / 20.0);
-        let shape: Shape = [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)];
+        let shape: Shape = fit.model.shape(f64::from(i) / 20.0).parameters();
         let mut share = Vec::new();
         shares(&shape, &everything, &mut share);
         1.0 - share[0].value

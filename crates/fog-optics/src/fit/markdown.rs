@@ -1,7 +1,6 @@
 //! A fit as text for people.
 
 use super::outcome::{AltitudeFit, Fit, SHAPE_KEYS, Standing};
-use super::report::values;
 use super::trend::CrossValidation;
 use std::fmt::Write;
 
@@ -291,7 +290,7 @@ fn altitude_row(a: &AltitudeFit, text: &mut String) {
     let mut cells = vec![format!("{}", a.spectrum.altitude_m), number];
     match &a.own {
         Some(own) => {
-            let pairs = values(&own.shape).into_iter().zip(own.shape_errors);
+            let pairs = own.shape.parameters().into_iter().zip(own.shape_errors);
             cells.extend(pairs.map(|(v, e)| format!("{} ± {}", significant(v, 4), significant(e, 2))));
             cells.push(percent(own.rrse));
         }

@@ -4,7 +4,6 @@ use super::bins::shares;
 use super::measurements::Bin;
 use super::outcome::{Fit, OwnFit, SHAPE_KEYS};
 use crate::distribution::{SpectrumShape, gaussian, lognormal};
-use fog_core::math::f64::ln;
 use std::fmt::Write;
 
 impl OwnFit {
@@ -26,7 +25,7 @@ fn parts(number: f64, shape: &SpectrumShape, d_um: f64) -> [f64; 2] {
 
 /// Mean densities over a bin in m⁻³ µm⁻¹ of a spectrum of `number` droplets per m³: the whole, lognormal, Gaussian.
 fn bin_means(number: f64, shape: &SpectrumShape, bin: &Bin) -> [f64; 3] {
-    let [mu_l, sigma_l, mu_g, sigma_g, ln_ratio] = values(shape);
+    let [mu_l, sigma_l, mu_g, sigma_g, ln_ratio] = shape.parameters();
     // e^±700 leaves one of the parts alone.
     let alone = |ln_ratio: f64| {
         let mut share = Vec::new();
@@ -35,11 +34,6 @@ fn bin_means(number: f64, shape: &SpectrumShape, bin: &Bin) -> [f64; 3] {
     };
     let r = shape.gl_ratio;
     [alone(ln_ratio), alone(-700.0) / (1.0 + r), alone(700.0) * r / (1.0 + r)]
-}
-
-/// Values of a shape in the order of [`SHAPE_KEYS`].
-pub(super) fn values(shape: &SpectrumShape) -> [f64; 5] {
-    [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)]
 }
 
 /// Text in a CSV cell: no commas, quotes or line ends.
@@ -92,7 +86,7 @@ impl Fit {
                 Some(own) => {
                     cells.push(short(own.number_density_1_m3));
                     cells.push(short(own.number_density_1_m3 * own.number_density_error));
-                    for (value, error) in values(&own.shape).iter().zip(own.shape_errors) {
+                    for (value, error) in own.shape.parameters().iter().zip(own.shape_errors) {
                         cells.extend([short(*value), short(error)]);
                     }
                     cells.extend([

@@ -7,7 +7,6 @@ use crate::advection::AdvectionModel;
 use crate::error::{OpticsError, check_range};
 use crate::fit::bins::{Shape, shares};
 use crate::fit::measurements::Bin;
-use fog_core::math::f64::ln;
 use fog_core::random::{PathRng, mix64};
 
 /// Area in m² that a scattering probe sees: nominal effective sampling area of an FSSP-100ER, 0.300 mm² (EUFAR instrument
@@ -96,8 +95,7 @@ pub fn flights(model: &AdvectionModel, settings: &FlightSettings) -> Result<Vec<
         for (approach, step) in (0..settings.approaches as u64).flat_map(|a| (0..steps).map(move |s| (a, s)))
         {
             let altitude = ((step as f64 + 0.5) * settings.altitude_step_m).min(height);
-            let shape = model.shape(altitude / height);
-            let shape: Shape = [shape.mu_l, shape.sigma_l, shape.mu_g, shape.sigma_g, ln(shape.gl_ratio)];
+            let shape: Shape = model.shape(altitude / height).parameters();
             shares(&shape, &bins, &mut share);
             let number = model.number_density_1_m3(altitude / height, height);
             let place = mix64(height.to_bits()) ^ mix64((approach << 32) | step);
