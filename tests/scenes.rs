@@ -1,7 +1,7 @@
 //! Small scenes that several suites render.
 
-use fog_core::math;
 use fog_core::optics_table::{OpticsTable, OpticsTableParts};
+use fog_core::phase::HenyeyGreenstein;
 use fog_core::phase_grid;
 use fog_core::profile::ExtinctionProfile;
 use fog_core::{Vec3, Vec3A, colour::Observer};
@@ -26,10 +26,8 @@ pub fn small_table() -> OpticsTable {
             let g = 0.6 + 0.2 * f64::from(z) + 0.1 * f64::from(l);
             g_all.push(g);
             c_ext_m2.push(1e-10 * (1.0 + 0.3 * f64::from(l)));
-            phase.extend(nodes.iter().map(|&m| {
-                let d = (1.0 - g) * (1.0 - g) + 2.0 * g * m;
-                (1.0 - g * g) / (4.0 * math::PI * d * d.sqrt())
-            }));
+            let hg = HenyeyGreenstein::new(g).expect("valid g");
+            phase.extend(nodes.iter().map(|&m| hg.eval(m)));
         }
     }
     OpticsTable::new(&OpticsTableParts {
@@ -68,7 +66,7 @@ pub fn coloured_fog(height_m: f64, sigma_t_1_m: f64, albedo: f64) -> Medium {
 /// Henyey–Greenstein fog.
 #[must_use]
 pub fn hg_fog(profile: ExtinctionProfile, g: f32) -> Medium {
-    Medium::new(profile, Phase::HenyeyGreenstein { g })
+    Medium::new(profile, Phase::HenyeyGreenstein(HenyeyGreenstein::new(f64::from(g)).expect("valid g")))
 }
 
 /// No surfaces at all.

@@ -16,12 +16,17 @@
 //! ```
 
 pub mod advection;
+pub mod coefficient;
 pub mod distribution;
+pub mod droplet_table;
 pub mod error;
+pub mod jendersie_deon;
 pub mod layer;
 pub mod layer_csv;
+pub mod mean_cosine;
 pub mod mean_diameter;
 pub mod mie;
+pub mod phase_function;
 pub mod polydisperse;
 pub mod state;
 pub mod table;

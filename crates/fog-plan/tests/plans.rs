@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fog_plan::{FogModel, FrameSpec, Output, Phase, Plan, SceneSpec};
+use fog_plan::{FogModel, FrameSpec, MeanCosine, Output, Phase, Plan, SceneSpec};
 
 const BASE: &str = "version: 1\nname: t\nscene: none\nfog: {model: advection, height_m: 180}\n";
 
@@ -226,7 +226,7 @@ fn values_are_resolved() {
             single_scattering_albedo: 1.0
         }
     );
-    assert_eq!(frame.fog.phase, Phase::Hg(0.83));
+    assert_eq!(frame.fog.phase, Phase::Hg(MeanCosine::Value(0.83)));
     assert_eq!(frame.camera.position_m, [1.0, 13.0, 2.0]);
     assert_eq!(frame.outputs, [Output::Image, Output::Tau]);
     let json = serde_json::to_value(&frame).unwrap();

@@ -1,11 +1,12 @@
 //! The fog of a frame: where optics (droplets, tables) and scene (media) meet.
 
 use crate::error::Error;
+use crate::phase::FogPhase;
 use crate::resources::Resources;
 use fog_optics::layer::{self, FogLayer};
-use fog_optics::layer_csv;
 use fog_optics::state::FogState;
-use fog_plan::{FogModel, FogSpec, Phase};
+use fog_optics::{coefficient, layer_csv};
+use fog_plan::{Coefficient, FogModel, FogSpec};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
 
@@ -17,6 +18,9 @@ pub struct Fog {
     layer: FogLayer,
     droplets: Option<Droplets>,
     g: Option<f64>,
+    phase_record: Value,
+    /// Where the extinction comes from droplets.
+    coefficient: Option<Coefficient>,
     datum_m: f64,
 }
 
@@ -35,7 +39,7 @@ impl Fog {
     /// # Errors
     /// If a layer file cannot be read or is wrong, or the visibility cannot be met.
     pub fn new(spec: &FogSpec, resources: &Resources) -> Result<Option<Self>, Error> {
-        let Some((mut layer, mut droplets)) = layer_of(&spec.model, resources)? else { return Ok(None) };
+        let Some((mut layer, mut droplets)) = layer_of(spec, resources)? else { return Ok(None) };
         if let Some(wanted) = spec.visibility {
             let factor = layer.scale_for_mor(wanted.mor_m, wanted.altitude_m)?;
             layer = layer.scaled(factor)?;
@@ -43,17 +47,16 @@ impl Fog {
                 droplets.number_density_scale *= factor;
             }
         }
-        let (phase, g) = match spec.phase {
-            Phase::Hg(g) => (fog_scene::phase::Phase::HenyeyGreenstein { g: g as f32 }, Some(g)),
-            Phase::Mie => (fog_scene::phase::Phase::Table(resources.polydisperse()?.clone()), None),
-            Phase::MieMeanDiameter => {
-                let table = resources.mean_diameter()?;
-                let g = table.view().g[0];
-                (fog_scene::phase::Phase::Table(table.clone()), Some(g))
-            }
-        };
+        let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, resources)?;
         let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
-        Ok(Some(Self { medium, layer, droplets, g, datum_m: spec.datum_m }))
+        let coefficient = from_droplets(&spec.model).then_some(spec.coefficient);
+        let datum_m = spec.datum_m;
+        Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, datum_m }))
+    }
+
+    /// Phase function and scattering coefficient as they are recorded.
+    pub(crate) fn optics_json(&self) -> [(&'static str, Value); 2] {
+        [("phase", self.phase_record.clone()), ("coefficient", json!(self.coefficient))]
     }
 
     /// Altitude over the fog's datum of world height `y`, in metres.
@@ -78,6 +81,9 @@ impl Fog {
         let mut state =
             FogState::advection(&d.table, &d.model, d.height_m, d.number_density_scale, altitude_m)?;
         (state.sigma_t_550_1_m, state.mor_m) = (grey.sigma_t_550_1_m, grey.mor_m);
+        if self.coefficient == Some(Coefficient::Paper) {
+            state.albedo = state.albedo.and(grey.albedo);
+        }
         if state.g.is_some() && self.g.is_some() {
             state.g = self.g;
         }
@@ -102,20 +108,38 @@ impl Fog {
     }
 }
 
+/// True if the extinction of the layer, or a part of it, is that of droplets.
+fn from_droplets(model: &FogModel) -> bool {
+    match model {
+        FogModel::None | FogModel::Layered { .. } => false,
+        FogModel::Advection { .. } => true,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none(),
+        FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none()
+        }
+    }
+}
+
 /// The layer of a model, and its droplets where the model has them.
-fn layer_of(model: &FogModel, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
-    // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
-    let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        Ok(layer::advection(resources.polydisperse()?, &resources.model, height_m, 1.0)?)
+fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
+    let advection_of = |height_m: f64, scale: f64| -> Result<FogLayer, Error> {
+        let (table, model) = (resources.polydisperse()?, &resources.model);
+        Ok(match spec.coefficient {
+            Coefficient::Integral => layer::advection(table, model, height_m, scale)?,
+            Coefficient::Paper => {
+                coefficient::paper_layer(model, table.view().wavelengths_nm, height_m, scale)?
+            }
+        })
     };
-    let layer = match model {
+    // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
+    let advection = |height_m: f64| advection_of(height_m, 1.0);
+    let layer = match &spec.model {
         FogModel::None => return Ok(None),
         FogModel::Advection { height_m, number_density_scale } => {
-            let (table, model) = (resources.polydisperse()?, &resources.model);
-            let layer = layer::advection(table, model, *height_m, *number_density_scale)?;
+            let layer = advection_of(*height_m, *number_density_scale)?;
             let droplets = Droplets {
-                table: table.clone(),
-                model: model.clone(),
+                table: resources.polydisperse()?.clone(),
+                model: resources.model.clone(),
                 height_m: *height_m,
                 number_density_scale: *number_density_scale,
             };

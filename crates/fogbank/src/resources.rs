@@ -4,11 +4,14 @@ use crate::error::Error;
 use crate::progress::{Event, Progress};
 use crate::table_cache::TableCache;
 use fog_core::colour::Observer;
+use fog_core::diameter_choice::DiameterChoice;
+use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::OpticsTable;
 use fog_optics::advection::AdvectionModel;
+use fog_optics::droplet_table;
 use fog_optics::mean_diameter::mean_diameter_table;
 use fog_optics::table::{self, TableSettings};
-use fog_plan::{FogModel, FrameSpec, Phase};
+use fog_plan::{FogModel, FrameSpec, MeanCosine, Phase, Sampling};
 use fog_scene::{Limits, LoadedScene};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -16,7 +19,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Wavelength of the single-droplet table (`phase: mie_mean_diameter`), in nm.
-const MEAN_DIAMETER_NM: f64 = 550.0;
+pub(crate) const MEAN_DIAMETER_NM: f64 = 550.0;
 
 /// Tables and scenes by name. Fill it with [`Resources::prepare`] before frames are made from it.
 #[derive(Debug)]
@@ -28,6 +31,7 @@ pub struct Resources {
     pub model: AdvectionModel,
     polydisperse: Option<OpticsTable>,
     mean_diameter: Option<OpticsTable>,
+    droplets: Option<(DropletTable, DiameterChoice)>,
     scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
     empty: Arc<LoadedScene>,
 }
@@ -44,6 +48,7 @@ impl Resources {
             model: AdvectionModel::arcata()?,
             polydisperse: None,
             mean_diameter: None,
+            droplets: None,
             scenes: HashMap::new(),
             empty: Arc::new(LoadedScene::default()),
         })
@@ -72,6 +77,9 @@ impl Resources {
         if spec.fog.phase == Phase::MieMeanDiameter && self.mean_diameter.is_none() {
             self.mean_diameter = Some(mean_diameter_table(&self.model, MEAN_DIAMETER_NM)?);
         }
+        if needs_droplets(spec) && self.droplets.is_none() {
+            self.droplets = Some(self.prepare_droplets(progress)?);
+        }
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
         {
@@ -88,6 +96,24 @@ impl Resources {
             self.scenes.insert(scene.file.clone(), loaded.map(Arc::new).map_err(|e| e.to_string()));
         }
         Ok(())
+    }
+
+    /// Single droplets at the renderer's wavelengths, and their odds at its altitudes.
+    fn prepare_droplets(&self, progress: &dyn Progress) -> Result<(DropletTable, DiameterChoice), Error> {
+        let TableSettings { zeta, wavelengths_nm, diameters } = TableSettings::visible(&self.model);
+        let fingerprint = droplet_table::fingerprint_bytes(&diameters, &wavelengths_nm);
+        let started = Instant::now();
+        let (table, origin) = self.cache.open("droplets", &fingerprint, || {
+            let report = |fraction| {
+                progress.event(Event::TableProgress(fraction));
+            };
+            Ok(droplet_table::build(&diameters, &wavelengths_nm, &report)?)
+        })?;
+        let density = |zeta: f64, d_um: f64| self.model.shape(zeta).density_1_um(d_um);
+        let choice = droplet_table::choice(&table, &diameters, &zeta, density)?;
+        let seconds = started.elapsed().as_secs_f64();
+        progress.event(Event::Table { name: "single droplets", origin: &origin, seconds });
+        Ok((table, choice))
     }
 
     /// The scene in `file`, or empty space.
@@ -109,20 +135,32 @@ impl Resources {
         self.polydisperse.as_ref().ok_or_else(|| Error::Fog("optics table was not prepared".to_owned()))
     }
 
+    pub(crate) fn droplets(&self) -> Result<&(DropletTable, DiameterChoice), Error> {
+        self.droplets.as_ref().ok_or_else(|| Error::Fog("droplet table was not prepared".to_owned()))
+    }
+
     pub(crate) fn mean_diameter(&self) -> Result<&OpticsTable, Error> {
         self.mean_diameter.as_ref().ok_or_else(|| Error::Fog("phase table was not prepared".to_owned()))
     }
 }
 
+/// True if the frame draws single droplets.
+fn needs_droplets(spec: &FrameSpec) -> bool {
+    spec.fog.model != FogModel::None
+        && spec.fog.phase == Phase::Mie
+        && spec.fog.sampling == Sampling::Diameter
+}
+
 /// True if the frame's extinction or phase function comes from the polydisperse table.
 fn needs_polydisperse(spec: &FrameSpec) -> bool {
+    let by_altitude = matches!(spec.fog.phase, Phase::Mie | Phase::Hg(MeanCosine::Layer));
     match &spec.fog.model {
         FogModel::None => false,
         FogModel::Advection { .. } => true,
-        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none() || spec.fog.phase == Phase::Mie,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none() || by_altitude,
         FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
-            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none() || spec.fog.phase == Phase::Mie
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none() || by_altitude
         }
-        FogModel::Layered { .. } => spec.fog.phase == Phase::Mie,
+        FogModel::Layered { .. } => by_altitude,
     }
 }

@@ -82,7 +82,11 @@ impl Draine {
             if excess.abs() <= 4.0 * f64::EPSILON * u {
                 break;
             }
-            if excess > 0.0 { high = h } else { low = h }
+            if excess > 0.0 {
+                high = h
+            } else {
+                low = h
+            }
             let mu = 1.0 - m;
             let newton = h - excess / (slope_norm * (1.0 + self.alpha * mu * mu));
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
@@ -114,7 +118,7 @@ mod tests {
 
     /// ∫₀^m of the density by Simpson's rule over steps that are even in the fourth root.
     fn integral(p: &Draine, m: f64, weight: impl Fn(f64) -> f64) -> f64 {
-        let n = 4000;
+        let n = 40_000;
         let top = m.sqrt().sqrt();
         let f = |v: f64| {
             let x = v.powi(4);

@@ -6,15 +6,17 @@ mod camera;
 mod fog;
 mod light;
 mod or_none;
+mod phase;
 mod sweep;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
-pub(crate) use fog::{FogFile, FogModelName, PhaseFile, VisibilityFile};
+pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
 pub(crate) use or_none::OrNone;
+pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
 use or_none::Example;
