@@ -32,6 +32,7 @@ forward! {
     pow(x, y) = powf / pow: "x to the power y.";
     cbrt(x) = cbrtf / cbrt: "Cube root.";
     erf(x) = erff / erf: "Error function.";
+    ln_gamma(x) = lgammaf / lgamma: "Logarithm of the absolute value of the gamma function.";
 }
 
 /// exp(x) in single precision for the hot loop: relative error below 1.5e-7 for x in [-87, 88]; 0 below, clamped above.

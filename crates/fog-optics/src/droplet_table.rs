@@ -4,6 +4,7 @@
 //! altitude. Together they equal the fog's [polydisperse table](crate::table) in the mean.
 
 use crate::distribution::DiameterGrid;
+use crate::droplets::Spectra;
 use crate::error::OpticsError;
 use crate::mie::MieSeries;
 use crate::table::Fingerprint;
@@ -49,17 +50,17 @@ pub fn build(
     })
 }
 
-/// Odds of the droplets of `table` (built over `diameters`) in a fog: at each relative altitude of `zeta`, ascending, a
-/// scattering is by a droplet of diameter d with probability ∝ n(d, ζ) C_sca(d, λ) w, where `density_1_um(ζ, d in µm)` is
-/// the density n in any unit and w the weight of d in the trapezoidal rule.
+/// Odds of the droplets of `table` (built over `diameters`) in a fog of `spectra`: at each relative altitude of `zeta`,
+/// ascending, a scattering is by a droplet of diameter d with probability ∝ n(d, ζ) C_sca(d, λ) w, with w the weight of d in
+/// the trapezoidal rule.
 ///
 /// # Errors
-/// If the grid is not the table's, `zeta` does not ascend, or a density is negative, not finite, or 0 at every diameter.
+/// If the grid is not the table's, `zeta` does not ascend, or no droplet is at any of the diameters.
 pub fn choice(
     table: &DropletTable,
     diameters: &DiameterGrid,
     zeta: &[f64],
-    density_1_um: impl Fn(f64, f64) -> f64,
+    spectra: &Spectra,
 ) -> Result<DiameterChoice, OpticsError> {
     let view = table.view();
     let w = view.wavelengths_nm.len();
@@ -69,9 +70,10 @@ pub fn choice(
     }
     let mut weights = Vec::with_capacity(zeta.len() * view.c_sca_m2.len());
     for &z in zeta {
+        let spectrum = spectra.distribution(z);
         for (i, &d) in view.diameters_um.iter().enumerate() {
             // Cross sections in µm²: far from the smallest numbers.
-            let share = 1e12 * diameters.weight_um(i) * density_1_um(z, d);
+            let share = 1e12 * diameters.weight_um(i) * spectrum.density_1_um(d);
             weights.extend(view.c_sca_m2[i * w..(i + 1) * w].iter().map(|c| share * c));
         }
     }
@@ -81,8 +83,9 @@ pub fn choice(
 /// Everything that [`build`] depends on, as bytes to be hashed for the name of a cached file.
 #[must_use]
 pub fn fingerprint_bytes(diameters: &DiameterGrid, wavelengths_nm: &[f64]) -> Vec<u8> {
-    let mut fingerprint = Fingerprint::new("droplet table");
-    fingerprint.numbers(&diameters.bounds_um());
+    let mut fingerprint = Fingerprint::new("single droplets");
+    let d_um: Vec<f64> = (0..diameters.count()).map(|i| diameters.diameter_um(i)).collect();
+    fingerprint.numbers(&d_um);
     fingerprint.numbers(wavelengths_nm);
     fingerprint.bytes
 }
@@ -91,6 +94,7 @@ pub fn fingerprint_bytes(diameters: &DiameterGrid, wavelengths_nm: &[f64]) -> Ve
 mod tests {
     use super::*;
     use crate::advection::AdvectionModel;
+    use crate::size::SizeDistribution;
     use crate::table::{TableSettings, build_table};
 
     #[test]
@@ -103,8 +107,8 @@ mod tests {
         };
         let mixtures = build_table(&model, &settings, &|_| ()).unwrap();
         let droplets = build(&settings.diameters, &settings.wavelengths_nm, &|_| ()).unwrap();
-        let density = |z: f64, d: f64| model.shape(z).density_1_um(d);
-        let choice = choice(&droplets, &settings.diameters, &settings.zeta, density).unwrap();
+        let spectra = Spectra::Advection(model.clone());
+        let choice = choice(&droplets, &settings.diameters, &settings.zeta, &spectra).unwrap();
         let (mixture, droplet, nodes) = (mixtures.view(), droplets.view(), phase_grid::nodes());
         for row in 0..3 {
             for l in 0..2 {
@@ -134,9 +138,10 @@ mod tests {
     fn other_diameters_are_refused_and_fingerprints_differ() {
         let grids = [0.5, 0.25].map(|step| DiameterGrid::new(1.0, 2.0, step).unwrap());
         let table = build(&grids[0], &[550.0], &|_| ()).unwrap();
-        assert!(choice(&table, &grids[0], &[0.0], |_, _| 1.0).is_ok());
-        assert!(choice(&table, &grids[1], &[0.0], |_, _| 1.0).is_err());
-        assert!(choice(&table, &grids[0], &[0.0], |_, _| 0.0).is_err());
+        let fog = Spectra::Same(SizeDistribution::gamma(5.0, 0.1).unwrap());
+        assert!(choice(&table, &grids[0], &[0.0], &fog).is_ok());
+        assert!(choice(&table, &grids[1], &[0.0], &fog).is_err());
+        assert!(choice(&table, &grids[0], &[0.5, 0.5], &fog).is_err());
         let prints = [
             fingerprint_bytes(&grids[0], &[550.0]),
             fingerprint_bytes(&grids[1], &[550.0]),

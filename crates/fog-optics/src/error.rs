@@ -40,6 +40,19 @@ pub enum OpticsError {
         /// The value found and what is expected instead.
         problem: String,
     },
+    /// Parameters or rows that make no droplet spectrum.
+    #[error("droplet spectrum: {0}")]
+    Distribution(String),
+    /// A name that is in no list.
+    #[error("unknown {what} `{name}`; expected one of {known}")]
+    UnknownName {
+        /// What the name is for.
+        what: &'static str,
+        /// What was given.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// Axes of a table that do not fit each other or do not ascend.
     #[error("optics table settings: {0}")]
     Settings(String),

@@ -1,16 +1,15 @@
 //! Fog layers: extinction and albedo by altitude and wavelength, and what the paper derives from them.
 
 use crate::advection::AdvectionModel;
+use crate::droplets::DropletFog;
 use crate::error::{OpticsError, check_range};
+use crate::vertical::NODES;
 use crate::visibility::sigma_t_from_mor;
 use fog_core::optics_table::{OpticsTable, OpticsView};
 use fog_core::profile::ExtinctionProfile;
 
 /// Wavelength in nm at which visibilities, means and extremes are taken.
 pub const REFERENCE_NM: f64 = 550.0;
-
-/// Altitudes of an advection layer: enough for 1e-5 of σ_t with linear interpolation.
-pub(crate) const ADVECTION_NODES: usize = 1025;
 
 /// A horizontally even layer: σ_t and albedo at ascending altitudes over its datum, linear between them, nothing outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +22,30 @@ pub struct FogLayer {
     albedo: Vec<f64>,
 }
 
-/// The advection fog of `model` with height `height_m`, its number of droplets multiplied by `number_density_scale`.
+/// The layer of a fog of droplets, by the table of its spectra ([`crate::table::build`]).
 ///
-/// σ_t(z, λ) = N(ζ, H) C_ext(ζ, λ) at 1025 altitudes, C from `table` by cubic interpolation in ζ; where the polynomial of
-/// N is negative, N = 0. Wavelengths are those of the table.
+/// σ_t(z, λ) = N(ζ) C_ext(ζ, λ) at 1025 altitudes, C from `table` by cubic interpolation in ζ. Wavelengths are those of the
+/// table.
+#[must_use]
+pub fn droplets(table: &OpticsTable, fog: &DropletFog) -> FogLayer {
+    let view = table.view();
+    let last = NODES - 1;
+    let (mut altitude_m, mut sigma_t, mut albedo) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..=last {
+        let zeta = i as f64 / last as f64;
+        let n = fog.number_density_1_m3(zeta);
+        altitude_m.push(fog.height_m() * zeta);
+        for l in 0..view.wavelengths_nm.len() {
+            let cross = cross_sections(&view, zeta, l);
+            sigma_t.push(n * cross.c_ext_m2);
+            albedo.push((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0));
+        }
+    }
+    FogLayer { altitude_m, wavelengths_nm: view.wavelengths_nm.to_vec(), sigma_t, albedo }
+}
+
+/// The advection fog of `model` with height `height_m`, its number of droplets multiplied by `number_density_scale`:
+/// [`droplets`] of [`DropletFog::advection`].
 ///
 /// # Errors
 /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`], or the scale is not in 0 to 1e6.
@@ -36,22 +55,7 @@ pub fn advection(
     height_m: f64,
     number_density_scale: f64,
 ) -> Result<FogLayer, OpticsError> {
-    model.check_height(height_m)?;
-    check_range("number_density_scale", number_density_scale, 0.0, 1e6)?;
-    let view = table.view();
-    let last = ADVECTION_NODES - 1;
-    let (mut altitude_m, mut sigma_t, mut albedo) = (Vec::new(), Vec::new(), Vec::new());
-    for i in 0..=last {
-        let zeta = i as f64 / last as f64;
-        let n = number_density_scale * model.number_density_1_m3(zeta, height_m);
-        altitude_m.push(height_m * zeta);
-        for l in 0..view.wavelengths_nm.len() {
-            let cross = cross_sections(&view, zeta, l);
-            sigma_t.push(n * cross.c_ext_m2);
-            albedo.push((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0));
-        }
-    }
-    Ok(FogLayer { altitude_m, wavelengths_nm: view.wavelengths_nm.to_vec(), sigma_t, albedo })
+    Ok(droplets(table, &DropletFog::advection(model, height_m)?.scaled(number_density_scale)?))
 }
 
 /// A layer with the same `sigma_t_1_m` and single-scattering albedo from its base to `height_m`, at every wavelength.

@@ -16,9 +16,12 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
 pub mod coefficient;
+mod csv;
 pub mod distribution;
 pub mod droplet_table;
+pub mod droplets;
 pub mod error;
 pub mod jendersie_deon;
 pub mod layer;
@@ -28,7 +31,10 @@ pub mod mean_diameter;
 pub mod mie;
 pub mod phase_function;
 pub mod polydisperse;
+pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;

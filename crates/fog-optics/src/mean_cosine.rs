@@ -1,6 +1,7 @@
 //! One mean cosine for a whole layer.
 
-use crate::layer::{ADVECTION_NODES, FogLayer, REFERENCE_NM, cross_sections_at};
+use crate::layer::{FogLayer, REFERENCE_NM, cross_sections_at};
+use crate::vertical::NODES;
 use fog_core::optics_table::OpticsTable;
 
 /// The layer's own g at 550 nm (`phase: {hg: layer}`): the mean over altitude of the droplets' g, weighted by what the
@@ -14,7 +15,7 @@ use fog_core::optics_table::OpticsTable;
 #[must_use]
 pub fn layer_mean_cosine(layer: &FogLayer, table: &OpticsTable) -> f64 {
     let [base, top] = layer.extent_m();
-    let (view, last) = (table.view(), ADVECTION_NODES - 1);
+    let (view, last) = (table.view(), NODES - 1);
     let (mut scattered, mut sum, mut plain) = (0.0, 0.0, 0.0);
     for i in 0..=last {
         let zeta = i as f64 / last as f64;

@@ -1,6 +1,7 @@
 //! What the fog is at one altitude: the numbers that a data set records with a frame.
 
 use crate::advection::AdvectionModel;
+use crate::droplets::DropletFog;
 use crate::error::OpticsError;
 use crate::layer::{FogLayer, REFERENCE_NM, cross_sections_at};
 use crate::visibility::mor_m;
@@ -29,27 +30,18 @@ pub struct FogState {
 }
 
 impl FogState {
-    /// The advection fog of [`crate::layer::advection`] at an altitude in m over its base.
-    ///
-    /// # Errors
-    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`].
-    pub fn advection(
-        table: &OpticsTable,
-        model: &AdvectionModel,
-        height_m: f64,
-        number_density_scale: f64,
-        altitude_m: f64,
-    ) -> Result<Self, OpticsError> {
-        model.check_height(height_m)?;
-        let zeta = altitude_m / height_m;
-        let n = number_density_scale * model.number_density_1_m3(zeta, height_m);
+    /// The fog of [`crate::layer::droplets`] at an altitude in m over its base.
+    #[must_use]
+    pub fn droplets(table: &OpticsTable, fog: &DropletFog, altitude_m: f64) -> Self {
+        let zeta = altitude_m / fog.height_m();
+        let n = fog.number_density_1_m3(zeta);
         if n.is_nan() || n <= 0.0 {
-            return Ok(Self::default());
+            return Self::default();
         }
         // Linear in wavelength between the table's columns, as the layer is.
         let cross = cross_sections_at(&table.view(), zeta, REFERENCE_NM);
-        let moments = model.moments(zeta);
-        Ok(Self {
+        let moments = fog.spectra().distribution(zeta).moments();
+        Self {
             sigma_t_550_1_m: n * cross.c_ext_m2,
             albedo: Some((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0)),
             g: Some(cross.g),
@@ -58,7 +50,22 @@ impl FogState {
             number_density_1_m3: Some(n * moments.share_in_range),
             effective_radius_um: Some(moments.effective_radius_um),
             mean_diameter_um: Some(moments.mean_diameter_um),
-        })
+        }
+    }
+
+    /// The advection fog of [`crate::layer::advection`] at an altitude in m over its base.
+    ///
+    /// # Errors
+    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`], or the scale is not in 0 to 1e6.
+    pub fn advection(
+        table: &OpticsTable,
+        model: &AdvectionModel,
+        height_m: f64,
+        number_density_scale: f64,
+        altitude_m: f64,
+    ) -> Result<Self, OpticsError> {
+        let fog = DropletFog::advection(model, height_m)?.scaled(number_density_scale)?;
+        Ok(Self::droplets(table, &fog, altitude_m))
     }
 
     /// A layer without droplets in mind, at an altitude in m over its datum; `g` of its phase function, where it has one.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
+use crate::droplets::{DropletsSpec, VerticalSpec};
+
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameSpec {
@@ -85,6 +87,18 @@ pub enum FogModel {
         /// Factor on the number density, above 0 up to 100.
         number_density_scale: f64,
     },
+    /// Droplets of any spectrum, with any number by altitude.
+    Droplets {
+        /// Thickness of the layer in metres, 1 to 5000.
+        height_m: f64,
+        /// The spectrum.
+        droplets: DropletsSpec,
+        /// Droplets per m³ in the mean over altitude; absent: the number of the named or measured spectrum, or any if a
+        /// visibility is to be met.
+        number_density_1_m3: Option<f64>,
+        /// Number of droplets by altitude.
+        vertical: VerticalSpec,
+    },
     /// The same extinction in the whole layer, at every wavelength.
     Homogeneous {
         /// Thickness of the layer in metres, 1 to 5000.
@@ -121,6 +135,7 @@ impl FogModel {
         match self {
             Self::None => "none",
             Self::Advection { .. } => "advection",
+            Self::Droplets { .. } => "droplets",
             Self::Homogeneous { .. } => "homogeneous",
             Self::LinearGradient { .. } => "linear_gradient",
             Self::Layered { .. } => "layered",
@@ -132,7 +147,8 @@ impl FogModel {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
-    /// Mie scattering of the advection model's droplets by altitude relative to the layer, and by wavelength.
+    /// Mie scattering of the fog's droplets by wavelength; of a model without droplets, and of advection, that of the
+    /// advection model's, by altitude relative to the layer too.
     Mie,
     /// Henyey–Greenstein.
     Hg(MeanCosine),

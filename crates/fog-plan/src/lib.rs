@@ -13,6 +13,7 @@ mod check;
 mod de;
 mod de_error;
 mod diff;
+mod droplets;
 mod error;
 mod fill;
 mod frame;
@@ -30,6 +31,7 @@ mod validate;
 mod words;
 mod yaml;
 
+pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,

@@ -16,6 +16,7 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod droplets;
 mod error;
 mod fog;
 mod frame;
@@ -30,6 +31,7 @@ mod table_cache;
 pub use error::Error;
 pub use fog::Fog;
 pub use fog_dataset as dataset;
+pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_scene::generate;
 pub use frame::{Rendered, camera, render_frame, scene};

@@ -21,6 +21,7 @@ pub(crate) fn record(
         let [base, top] = fog.extent_m();
         let mut state = json!({
             "wavelength_nm": TAU_NM,
+            "droplets": fog.droplets_json(),
             "at_camera": fog.state_json(fog.altitude_m(f64::from(camera.pose.position.y))),
             "at_base": fog.state_json(base),
             "at_top": fog.state_json(top),

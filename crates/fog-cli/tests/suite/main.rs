@@ -5,6 +5,7 @@ mod commands;
 mod common;
 mod data_set;
 mod determinism;
+mod droplets;
 mod failures;
 mod mistakes;
 mod pipes;

@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{or_none::Example, phase::PhaseFile};
+use super::{
+    droplets::{DropletsFile, VerticalFile},
+    or_none::Example,
+    phase::PhaseFile,
+};
 use crate::ranges;
 
 /// A fog layer. Which keys apply depends on `model`.
@@ -13,12 +17,21 @@ use crate::ranges;
 pub(crate) struct FogFile {
     /// Which fog.
     pub(crate) model: Option<FogModelName>,
-    /// Thickness of the layer above the datum, in metres (advection, homogeneous, linear_gradient).
+    /// Thickness of the layer above the datum, in metres (advection, droplets, homogeneous, linear_gradient).
     #[schemars(range(min = ranges::LAYER_HEIGHT_M.min, max = ranges::LAYER_HEIGHT_M.max))]
     pub(crate) height_m: Option<f64>,
     /// Factor on the droplets' number density (advection). Absent: 1.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::DENSITY_SCALE.max))]
     pub(crate) number_density_scale: Option<f64>,
+    /// The spectrum of the droplets (droplets): a name, or one of {gamma: …}, {modified_gamma: …}, {lognormals: …},
+    /// {file: …}.
+    pub(crate) droplets: Option<DropletsFile>,
+    /// Droplets per cubic metre in the mean over altitude (droplets). Absent: the number of the named or measured spectrum,
+    /// or what `visibility` asks for.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::NUMBER_DENSITY_1_M3.max))]
+    pub(crate) number_density_1_m3: Option<f64>,
+    /// Number of droplets by altitude (droplets). Absent: uniform.
+    pub(crate) vertical: Option<VerticalFile>,
     /// Extinction coefficient in 1/m, at every wavelength (homogeneous). Absent: the mean over altitude of the advection
     /// layer's at 550 nm.
     #[schemars(range(min = ranges::SIGMA_T_1_M.min, max = ranges::SIGMA_T_1_M.max))]
@@ -56,6 +69,9 @@ impl Default for FogFile {
             model: None,
             height_m: None,
             number_density_scale: None,
+            droplets: None,
+            number_density_1_m3: None,
+            vertical: None,
             sigma_t_1_m: None,
             sigma_t_base_1_m: None,
             sigma_t_top_1_m: None,
@@ -81,6 +97,8 @@ impl Example for FogFile {
 pub(crate) enum FogModelName {
     /// Droplet sizes by altitude, after Kolářová et al. 2024.
     Advection,
+    /// Droplets of any spectrum, with any number by altitude.
+    Droplets,
     /// The same extinction everywhere in the layer.
     Homogeneous,
     /// Extinction linear in altitude.
@@ -94,6 +112,7 @@ impl FogModelName {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Advection => "advection",
+            Self::Droplets => "droplets",
             Self::Homogeneous => "homogeneous",
             Self::LinearGradient => "linear_gradient",
             Self::Layered => "layered",

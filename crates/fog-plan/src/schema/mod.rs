@@ -3,6 +3,7 @@
 //! Keys that an axis may supply are optional here even where a frame needs them.
 
 mod camera;
+mod droplets;
 mod fog;
 mod light;
 mod or_none;
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
+pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
 pub(crate) use or_none::OrNone;

@@ -39,7 +39,7 @@ fn also_without_value(schema: &mut Schema) {
 /// Mean cosine of Henyey–Greenstein.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 #[serde(untagged)]
-#[schemars(rename = "Mean cosine")]
+#[schemars(rename = "MeanCosine")]
 pub(crate) enum MeanCosineFile {
     /// This one.
     Value(#[schemars(range(min = ranges::HG_G.min, max = ranges::HG_G.max))] f64),

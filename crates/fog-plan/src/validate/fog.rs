@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-use FogModelName::{Advection, Homogeneous, Layered, LinearGradient};
+use FogModelName::{Advection, Droplets, Homogeneous, Layered, LinearGradient};
 
 /// Number density and albedo of fogs that do not say.
 pub(crate) const DEFAULT_SCALE: f64 = 1.0;
@@ -18,7 +18,7 @@ pub(crate) const DEFAULT_SCALE: f64 = 1.0;
 pub(crate) const DEFAULT_ALBEDO: f64 = 1.0;
 
 /// Models that have a layer of given thickness.
-const WITH_HEIGHT: [FogModelName; 3] = [Advection, Homogeneous, LinearGradient];
+const WITH_HEIGHT: [FogModelName; 4] = [Advection, Droplets, Homogeneous, LinearGradient];
 /// Models whose albedo is given rather than computed.
 const WITH_ALBEDO: [FogModelName; 3] = [Homogeneous, LinearGradient, Layered];
 
@@ -47,7 +47,7 @@ impl Check<'_> {
         let datum_m = self.range("fog.datum_m", fog.datum_m, ranges::DATUM_M);
         let visibility =
             fog.visibility.as_ref().map_or(Some(None), |v| self.visibility(v, fog.height_m).map(Some));
-        let why = "one of advection, homogeneous, linear_gradient, layered";
+        let why = "one of advection, droplets, homogeneous, linear_gradient, layered";
         let name = self.required("fog.model", fog.model, why)?;
         self.foreign_keys(fog, name);
         let model = self.model(fog, name);
@@ -131,9 +131,12 @@ impl Check<'_> {
 
     /// Keys of another model: a sign of a mistake, so never ignored.
     fn foreign_keys(&mut self, fog: &FogFile, model: FogModelName) {
-        let keys: [(&str, bool, &[FogModelName]); 7] = [
+        let keys: [(&str, bool, &[FogModelName]); 10] = [
             ("height_m", fog.height_m.is_some(), &WITH_HEIGHT),
             ("number_density_scale", fog.number_density_scale.is_some(), &[Advection]),
+            ("droplets", fog.droplets.is_some(), &[Droplets]),
+            ("number_density_1_m3", fog.number_density_1_m3.is_some(), &[Droplets]),
+            ("vertical", fog.vertical.is_some(), &[Droplets]),
             ("sigma_t_1_m", fog.sigma_t_1_m.is_some(), &[Homogeneous]),
             ("sigma_t_base_1_m", fog.sigma_t_base_1_m.is_some(), &[LinearGradient]),
             ("sigma_t_top_1_m", fog.sigma_t_top_1_m.is_some(), &[LinearGradient]),
@@ -166,6 +169,7 @@ impl Check<'_> {
                 let scale = self.range("fog.number_density_scale", scale, ranges::DENSITY_SCALE);
                 FogModel::Advection { height_m: height?, number_density_scale: scale? }
             }
+            Droplets => self.droplet_fog(fog, height)?,
             Homogeneous => {
                 let sigma_t = self.optional("fog.sigma_t_1_m", fog.sigma_t_1_m, ranges::SIGMA_T_1_M);
                 FogModel::Homogeneous {
