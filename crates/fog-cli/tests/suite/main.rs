@@ -8,6 +8,7 @@ mod determinism;
 mod droplets;
 mod failures;
 mod mistakes;
+mod optics;
 mod pipes;
 mod records;
 mod visibility;
