@@ -190,7 +190,7 @@ fn fill_cell(
         if i > 0 {
             sum += mass(nodes, i - 1, below, f64::from(x));
         }
-        if i % STRIDE == 0 {
+        if i.is_multiple_of(STRIDE) {
             sums[i / STRIDE] = sum;
         }
         store(i, x);
