@@ -1,6 +1,6 @@
 //! Tables of numbers in CSV text, with mistakes named by file, line, column and value.
 
-use crate::error::OpticsError;
+use crate::error::{OpticsError, short};
 
 /// A table of finite numbers under one of the headers that its reader knows.
 pub(crate) struct CsvTable<'a> {
@@ -111,9 +111,4 @@ impl<'a> CsvTable<'a> {
         }
         Ok(())
     }
-}
-
-/// `1e6` rather than `1000000`.
-fn short(x: f64) -> String {
-    if x.abs() >= 1e6 { format!("{x:e}") } else { format!("{x}") }
 }

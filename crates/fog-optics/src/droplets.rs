@@ -14,7 +14,6 @@ const MAX_NUMBER_1_M3: f64 = 1e15;
 
 /// Droplet spectra by relative altitude.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(clippy::large_enum_variant)] // held one by one
 pub enum Spectra {
     /// The same spectrum at every altitude.
     Same(SizeDistribution),

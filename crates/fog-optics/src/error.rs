@@ -72,5 +72,10 @@ pub(crate) fn check_range(what: &'static str, value: f64, low: f64, high: f64) -
     if (low..=high).contains(&value) {
         return Ok(());
     }
-    Err(OpticsError::Range { what, value, valid: format!("{low} to {high}") })
+    Err(OpticsError::Range { what, value, valid: format!("{} to {}", short(low), short(high)) })
+}
+
+/// `1e6` rather than `1000000`, `1e-9` rather than `0.000000001`.
+pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e6).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
 }

@@ -167,6 +167,7 @@ fn build_from(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::size::SizeDistribution;
 
     #[test]
     fn fingerprint_changes_with_everything_but_the_number_of_droplets() {
@@ -188,6 +189,28 @@ mod tests {
         let mut other = settings;
         other.diameters = DiameterGrid::new(0.5, 60.0, 0.7).unwrap();
         assert_ne!(base, other.fingerprint_bytes(&model));
+    }
+
+    #[test]
+    fn spectra_that_are_the_same_everywhere_have_a_row_and_a_fingerprint_of_their_own() {
+        let spectra = |r, v| Spectra::Same(SizeDistribution::gamma(r, v).unwrap());
+        let fingerprint = |s: &Spectra| TableSettings::visible_of(s).fingerprint_bytes_of(s);
+        let five = spectra(5.0, 0.1);
+        assert_eq!(fingerprint(&five), fingerprint(&five.clone()));
+        assert_ne!(fingerprint(&five), fingerprint(&spectra(5.0, 0.101)));
+        assert_ne!(fingerprint(&five), fingerprint(&spectra(5.001, 0.1)));
+        assert_eq!(TableSettings::visible_of(&five).zeta, [0.0]);
+        // A formula and a name that mean the same droplets share a table.
+        let c1 = crate::catalogue::named("deirmendjian_cloud_c1").unwrap();
+        let radiation = crate::catalogue::named("shettle_fenn_radiation_heavy").unwrap();
+        let fingerprints = [c1, radiation].map(|named| fingerprint(&Spectra::Same(named.distribution)));
+        assert_eq!(fingerprints[0], fingerprints[1]);
+
+        let model = AdvectionModel::arcata().unwrap();
+        let settings = TableSettings::visible(&model);
+        let advection = Spectra::Advection(model.clone());
+        assert_eq!(TableSettings::visible_of(&advection), settings);
+        assert_eq!(fingerprint(&advection), settings.fingerprint_bytes(&model));
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub enum DropletsSpec {
     ModifiedGamma {
         /// α, 0 to 1000.
         alpha: f64,
-        /// b in µm^−γ, 1e-6 to 1e6.
+        /// b in µm^−γ, 1e-20 to 1e12.
         b: f64,
         /// γ, 0.25 to 8.
         gamma: f64,

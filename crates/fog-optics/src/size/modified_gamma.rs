@@ -9,7 +9,7 @@ use fog_core::math::f64::{exp, ln, ln_gamma, pow};
 pub struct ModifiedGamma {
     /// Exponent of the rise, 0 to 1000.
     pub alpha: f64,
-    /// Rate of the fall in µm^−γ, 1e-6 to 1e6.
+    /// Rate of the fall in µm^−γ, 1e-20 to 1e12.
     pub b: f64,
     /// Exponent in the fall, 0.25 to 8.
     pub gamma: f64,
@@ -64,7 +64,7 @@ impl ModifiedGamma {
 
     pub(super) fn check(&self) -> Result<(), OpticsError> {
         check_range("modified gamma alpha", self.alpha, 0.0, 1000.0)?;
-        check_range("modified gamma b", self.b, 1e-6, 1e6)?;
+        check_range("modified gamma b", self.b, 1e-20, 1e12)?;
         check_range("modified gamma gamma", self.gamma, 0.25, 8.0)
     }
 }

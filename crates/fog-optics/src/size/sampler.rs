@@ -40,9 +40,8 @@ impl DiameterSampler {
     #[must_use]
     pub fn sample(&self, u: f64) -> f64 {
         let u = if u > 0.0 { u.min(1.0) } else { 0.0 };
-        // The interval must have a mass: those of an empty stretch all start at the same share.
-        let i = self.below.partition_point(|&b| b <= u).clamp(1, self.below.len() - 1);
-        let mut i = i;
+        let mut i = self.below.partition_point(|&b| b <= u).clamp(1, self.below.len() - 1);
+        // At u = 1 the last intervals can be empty of droplets: step back to one that is not.
         while i > 1 && self.below[i] <= self.below[i - 1] {
             i -= 1;
         }
@@ -64,15 +63,8 @@ impl DiameterSampler {
         if !(first..=last).contains(&d_um) {
             return 0.0;
         }
-        let (mut low, mut high) = (0, self.grid.count() - 1);
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            if self.grid.diameter_um(middle) <= d_um {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let low = self.interval(d_um);
+        let high = low + 1;
         let (d0, d1) = (self.grid.diameter_um(low), self.grid.diameter_um(high));
         let t = ((d_um - d0) / (d1 - d0)).clamp(0.0, 1.0);
         self.density[low] + (self.density[high] - self.density[low]) * t
@@ -88,6 +80,13 @@ impl DiameterSampler {
         if d_um >= last {
             return 1.0;
         }
+        let low = self.interval(d_um);
+        let width = d_um - self.grid.diameter_um(low);
+        (self.below[low] + 0.5 * width * (self.density[low] + self.pdf(d_um))).min(1.0)
+    }
+
+    /// Interval of the grid that holds a diameter of its range.
+    fn interval(&self, d_um: f64) -> usize {
         let (mut low, mut high) = (0, self.grid.count() - 1);
         while high - low > 1 {
             let middle = low.midpoint(high);
@@ -97,8 +96,7 @@ impl DiameterSampler {
                 high = middle;
             }
         }
-        let width = d_um - self.grid.diameter_um(low);
-        (self.below[low] + 0.5 * width * (self.density[low] + self.pdf(d_um))).min(1.0)
+        low
     }
 
     /// One of the grid's diameters by its index, for `u` uniform in [0, 1): drawn with its share of the trapezoidal rule,

@@ -1,6 +1,9 @@
 use super::*;
 use crate::water;
-use fog_core::math::f64::{exp, pow};
+use fog_core::math::{
+    PI,
+    f64::{exp, pow},
+};
 use fog_core::random::PathRng;
 
 fn shape() -> SpectrumShape {
@@ -200,7 +203,7 @@ fn mistakes_are_refused_with_a_reason() {
     for (alpha, b, gamma) in [(-1.0, 1.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, 0.0), (2.0, f64::INFINITY, 1.0)] {
         assert!(SizeDistribution::modified_gamma(ModifiedGamma { alpha, b, gamma }).is_err());
     }
-    let reaches = SizeDistribution::modified_gamma(ModifiedGamma { alpha: 1.0, b: 1e-6, gamma: 1.0 });
+    let reaches = SizeDistribution::modified_gamma(ModifiedGamma { alpha: 1.0, b: 1e-4, gamma: 1.0 });
     assert!(reaches.unwrap_err().to_string().contains("5000 µm"));
     assert!(SizeDistribution::lognormals(&[]).is_err());
     for (rows, word) in [
