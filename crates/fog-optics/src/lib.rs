@@ -1,5 +1,5 @@
 //! Droplets → optics → visibility: refractive index of water, Mie series, droplet-size distributions, polydisperse
-//! averages, optics tables, fog layers by altitude and visibility laws.
+//! averages, optics tables, phase functions, fog layers by altitude and visibility laws.
 //!
 //! No file access, clock, environment, printing or global state (DESIGN invariant 1): texts come in as arguments, source
 //! tables are compiled in. Lengths are in metres unless a name says `_um` (diameters) or `_nm` (wavelengths).

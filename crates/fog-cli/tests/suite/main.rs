@@ -8,7 +8,7 @@ mod determinism;
 mod droplets;
 mod failures;
 mod mistakes;
-mod optics;
+mod phases;
 mod pipes;
 mod records;
 mod visibility;

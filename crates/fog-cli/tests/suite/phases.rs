@@ -3,7 +3,7 @@
 use crate::common::{folder, ids, read_json, sweep};
 use serde_json::{Value, json};
 
-/// Records of one frame per fog, by night and by day alike small.
+/// Records of one small frame per fog.
 fn records(fogs: &[&str]) -> Vec<Value> {
     let dir = folder(&format!("outputs: [image, tau]\nsweep: {{axes: {{fog: [{}]}}}}\n", fogs.join(", ")));
     sweep(dir.path(), "out").ok();
