@@ -38,7 +38,11 @@ impl DiameterChoice {
     /// negative or not finite, or all weights of an altitude and wavelength are 0.
     pub fn new(zeta: &[f64], wavelengths: usize, weights: &[f64]) -> Result<Self, String> {
         let cells = zeta.len() * wavelengths;
-        if cells == 0 || wavelengths > MAX_COLUMNS || weights.is_empty() || !weights.len().is_multiple_of(cells) {
+        if cells == 0
+            || wavelengths > MAX_COLUMNS
+            || weights.is_empty()
+            || !weights.len().is_multiple_of(cells)
+        {
             let found = weights.len();
             return Err(format!("{found} weights for {} altitudes × {wavelengths} wavelengths", zeta.len()));
         }
