@@ -1,7 +1,9 @@
 //! The slow suites, one program: statistical tests of every sampler, and renderings against independent references.
 
 mod analog;
+mod droplets;
 mod furnace;
+mod phases;
 mod radiances;
 mod samplers;
 mod street;

@@ -1,6 +1,7 @@
 //! What a user of this crate can do wrong.
 
 use fog_core::optics_table::OpticsTableError;
+use fog_core::phase::PhaseError;
 use fog_core::profile::ProfileError;
 
 /// Why an optical quantity was refused: the kind of mistake and the offending input.
@@ -66,6 +67,9 @@ pub enum OpticsError {
     /// The table refused its values.
     #[error(transparent)]
     Table(#[from] OpticsTableError),
+    /// An analytic phase function refused its parameters.
+    #[error(transparent)]
+    Phase(#[from] PhaseError),
     /// The profile refused its values.
     #[error(transparent)]
     Profile(#[from] ProfileError),

@@ -87,17 +87,26 @@ pub fn linear_gradient(
 /// # Errors
 /// If there are fewer than two rows, they do not ascend, or a value is out of range.
 pub fn layered(rows: &[(f64, f64)], albedo: f64) -> Result<FogLayer, OpticsError> {
-    let layer = FogLayer {
-        altitude_m: rows.iter().map(|r| r.0).collect(),
-        wavelengths_nm: vec![REFERENCE_NM],
-        sigma_t: rows.iter().map(|r| r.1).collect(),
-        albedo: vec![albedo; rows.len()],
-    };
-    layer.profile(0.0)?; // makes every check
-    Ok(layer)
+    let (altitude_m, sigma_t) = rows.iter().copied().unzip();
+    FogLayer::new(altitude_m, vec![REFERENCE_NM], sigma_t, vec![albedo; rows.len()])
 }
 
 impl FogLayer {
+    /// A layer from rows: `sigma_t_1_m` and `albedo` are \[altitude\]\[wavelength\].
+    ///
+    /// # Errors
+    /// If the rows are too few, do not ascend or hold values out of range.
+    pub(crate) fn new(
+        altitude_m: Vec<f64>,
+        wavelengths_nm: Vec<f64>,
+        sigma_t: Vec<f64>,
+        albedo: Vec<f64>,
+    ) -> Result<Self, OpticsError> {
+        let layer = Self { altitude_m, wavelengths_nm, sigma_t, albedo };
+        layer.profile(0.0)?; // makes every check
+        Ok(layer)
+    }
+
     /// Altitudes of the rows in m over the datum, ascending.
     #[must_use]
     pub fn altitude_m(&self) -> &[f64] {
@@ -240,4 +249,19 @@ pub(crate) fn cross_sections(view: &OpticsView<'_>, zeta: f64, l: usize) -> Cros
         sum.g += weight * view.g[cell];
     }
     sum
+}
+
+/// [`cross_sections`] between the table's wavelengths, linear as a layer is; the nearest column beyond the ends.
+pub(crate) fn cross_sections_at(view: &OpticsView<'_>, zeta: f64, wavelength_nm: f64) -> CrossSections {
+    let w = view.wavelengths_nm;
+    let upper = w.partition_point(|&nm| nm <= wavelength_nm).clamp(1, w.len().max(2) - 1).min(w.len() - 1);
+    let lower = upper.saturating_sub(1);
+    let t = if upper == lower { 0.0 } else { (wavelength_nm - w[lower]) / (w[upper] - w[lower]) };
+    let (a, b) = (cross_sections(view, zeta, lower), cross_sections(view, zeta, upper));
+    let mix = |a: f64, b: f64| a + (b - a) * t.clamp(0.0, 1.0);
+    CrossSections {
+        c_ext_m2: mix(a.c_ext_m2, b.c_ext_m2),
+        c_sca_m2: mix(a.c_sca_m2, b.c_sca_m2),
+        g: mix(a.g, b.g),
+    }
 }

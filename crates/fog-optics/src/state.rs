@@ -3,7 +3,7 @@
 use crate::advection::AdvectionModel;
 use crate::droplets::DropletFog;
 use crate::error::OpticsError;
-use crate::layer::{FogLayer, REFERENCE_NM, cross_sections};
+use crate::layer::{FogLayer, REFERENCE_NM, cross_sections_at};
 use crate::visibility::mor_m;
 use fog_core::optics_table::OpticsTable;
 
@@ -38,23 +38,14 @@ impl FogState {
         if n.is_nan() || n <= 0.0 {
             return Self::default();
         }
-        let view = table.view();
-
         // Linear in wavelength between the table's columns, as the layer is.
-        let w = view.wavelengths_nm;
-        let upper = w.partition_point(|&nm| nm <= REFERENCE_NM).clamp(1, w.len().max(2) - 1).min(w.len() - 1);
-        let lower = upper.saturating_sub(1);
-        let t = if upper == lower { 0.0 } else { (REFERENCE_NM - w[lower]) / (w[upper] - w[lower]) };
-        let (a, b) = (cross_sections(&view, zeta, lower), cross_sections(&view, zeta, upper));
-        let mix = |a: f64, b: f64| a + (b - a) * t.clamp(0.0, 1.0);
-
-        let c_ext = mix(a.c_ext_m2, b.c_ext_m2);
+        let cross = cross_sections_at(&table.view(), zeta, REFERENCE_NM);
         let moments = fog.spectra().distribution(zeta).moments();
         Self {
-            sigma_t_550_1_m: n * c_ext,
-            albedo: Some((mix(a.c_sca_m2, b.c_sca_m2) / c_ext).clamp(0.0, 1.0)),
-            g: Some(mix(a.g, b.g)),
-            mor_m: Some(mor_m(n * c_ext)),
+            sigma_t_550_1_m: n * cross.c_ext_m2,
+            albedo: Some((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0)),
+            g: Some(cross.g),
+            mor_m: Some(mor_m(n * cross.c_ext_m2)),
             liquid_water_content_g_m3: Some(n * moments.mass_g),
             number_density_1_m3: Some(n * moments.share_in_range),
             effective_radius_um: Some(moments.effective_radius_um),

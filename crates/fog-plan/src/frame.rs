@@ -62,6 +62,12 @@ pub struct FogSpec {
     pub model: FogModel,
     /// Where scattered light goes.
     pub phase: Phase,
+    /// What the droplets add up to. Not written where it is the default, so that it is no part of old digests.
+    #[serde(skip_serializing_if = "Coefficient::is_default")]
+    pub coefficient: Coefficient,
+    /// How `phase` `Mie` is sampled. Not written where it is the default.
+    #[serde(skip_serializing_if = "Sampling::is_default")]
+    pub sampling: Sampling,
     /// Scales extinction so that the layer has this visibility.
     pub visibility: Option<Visibility>,
     /// World height (y) of altitude 0, in metres; −500 to 9000.
@@ -144,10 +150,67 @@ pub enum Phase {
     /// Mie scattering of the fog's droplets by wavelength; of a model without droplets, and of advection, that of the
     /// advection model's, by altitude relative to the layer too.
     Mie,
-    /// Henyey–Greenstein with this mean cosine, −0.999 to 0.999.
-    Hg(f64),
+    /// Henyey–Greenstein.
+    Hg(MeanCosine),
     /// Mie scattering of the mean droplet (the paper's table).
     MieMeanDiameter,
+    /// The closed form of Jendersie & d'Eon 2023.
+    JendersieDeon {
+        /// Diameter of the droplets in µm, above 0 up to 50; absent: the mean diameter of the advection model's droplets.
+        diameter_um: Option<f64>,
+    },
+}
+
+/// Mean cosine of a phase function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MeanCosine {
+    /// −0.999 to 0.999; serialises to this number.
+    Value(f64),
+    /// The mean over altitude of the droplets' g at 550 nm, weighted by what the layer scatters; serialises to `layer`.
+    Layer,
+}
+
+impl Serialize for MeanCosine {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Value(g) => serializer.serialize_f64(*g),
+            Self::Layer => serializer.serialize_str("layer"),
+        }
+    }
+}
+
+/// Scattering coefficient of a layer of droplets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coefficient {
+    /// ∫ n(d) C(d) dd over all droplets.
+    #[default]
+    Integral,
+    /// N·σ(d) averaged over diameters sampled by number (Kolářová, Lachiver & Wilkie 2024, Eq. 4).
+    Paper,
+}
+
+impl Coefficient {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// What `Phase::Mie` samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampling {
+    /// The phase function of all droplets together.
+    #[default]
+    Table,
+    /// That of one droplet, drawn with probability ∝ n(d) C_sca(d).
+    Diameter,
+}
+
+impl Sampling {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// A visibility to be met.

@@ -50,6 +50,7 @@ pub(crate) const RELATIVE_NUMBER: Range = Range::closed(0.0, 1e30);
 pub(crate) const SIGMA_T_1_M: Range = Range::closed(0.0, 10.0);
 pub(crate) const ALBEDO: Range = Range::closed(0.0, 1.0);
 pub(crate) const HG_G: Range = Range::closed(-0.999, 0.999);
+pub(crate) const FIT_DIAMETER_UM: Range = Range::above(0.0, 50.0);
 pub(crate) const MOR_M: Range = Range::closed(1.0, 100_000.0);
 pub(crate) const VISIBILITY_ALTITUDE_M: Range = Range::closed(0.0, 5000.0);
 pub(crate) const DATUM_M: Range = Range::closed(-500.0, 9000.0);

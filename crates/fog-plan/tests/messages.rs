@@ -22,7 +22,8 @@ fn unknown_keys() {
         errors("fog:\n  model: advection\n  heigth_m: 100\n"),
         [
             "configs/x.yaml:8:3: fog.heigth_m: unknown key; expected one of model, height_m, number_density_scale, \
-             droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, single_scattering_albedo, phase, visibility, datum_m; \
+             droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, \
+             single_scattering_albedo, phase, coefficient, sampling, visibility, datum_m; \
              did you mean `height_m`?"
         ]
     );
@@ -88,13 +89,34 @@ fn unknown_values() {
     assert_eq!(
         errors("fog: {model: advection, height_m: 9, phase: {hgg: 0.8}}\n"),
         [
-            "configs/x.yaml:6:45: fog.phase: unknown value \"hgg\"; expected one of mie, hg, mie_mean_diameter; \
+            "configs/x.yaml:6:45: fog.phase: unknown value \"hgg\"; expected one of mie, hg, mie_mean_diameter, \
+          jendersie_deon; \
           did you mean `hg`?"
         ]
     );
     assert_eq!(
         errors("fog: {model: advection, height_m: 9, phase: hg}\n"),
         ["configs/x.yaml:6:45: fog.phase: `hg` needs a value: {hg: …}"]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: {hg: own}}\n"),
+        ["configs/x.yaml:6:50: fog.phase.hg: expected a number or `layer`, found text \"own\""]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: {jendersie_deon: {d_um: 3}}}\n"),
+        ["configs/x.yaml:6:63: fog.phase.jendersie_deon.d_um: unknown key; expected diameter_um"]
+    );
+    assert_eq!(
+        errors(
+            "fog: {model: advection, height_m: 9, phase: {mie: 3}, coefficient: papr, sampling: diametr}\n"
+        ),
+        [
+            "configs/x.yaml:6:45: fog.phase: `mie` takes no value",
+            "configs/x.yaml:6:68: fog.coefficient: unknown value \"papr\"; expected one of integral, paper; \
+             did you mean `paper`?",
+            "configs/x.yaml:6:84: fog.sampling: unknown value \"diametr\"; expected one of table, diameter; \
+             did you mean `diameter`?",
+        ]
     );
     assert_eq!(
         errors("fog: none\noutputs: [image, image, tua]\n"),
@@ -131,6 +153,39 @@ fn ranges() {
         errors("fog: {model: advection, height_m: 50, visibility: {mor_m: 300, altitude_m: 60}}\n"),
         ["configs/x.yaml:6:76: fog.visibility.altitude_m: 60 m is above the layer, whose height_m is 50 m"]
     );
+}
+
+#[test]
+fn optics_of_the_droplets() {
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, phase: {jendersie_deon: {diameter_um: 51}}}\n"),
+        [
+            "configs/x.yaml:6:77: fog.phase.jendersie_deon.diameter_um: 51 µm is out of range; valid: above 0 up to 50 µm"
+        ]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, phase: {hg: 0.83}, sampling: diameter}\n"),
+        [
+            "configs/x.yaml:6:68: fog.sampling: `diameter` draws droplets of the fog, which only `phase: mie` knows"
+        ]
+    );
+    for (keys, column, given) in [
+        ("model: homogeneous, height_m: 50, sigma_t_1_m: 0.1", 72, "sigma_t_1_m"),
+        (
+            "model: linear_gradient, height_m: 50, sigma_t_base_1_m: 0.1, sigma_t_top_1_m: 0.2",
+            103,
+            "sigma_t_base_1_m and sigma_t_top_1_m",
+        ),
+        ("model: layered, file: a.csv", 49, "file"),
+    ] {
+        assert_eq!(
+            errors(&format!("fog: {{{keys}, coefficient: paper}}\n")),
+            [format!(
+                "configs/x.yaml:6:{column}: fog.coefficient: is about the extinction that droplets add up to, but here \
+                 {given} says it"
+            )]
+        );
+    }
 }
 
 #[test]

@@ -2,14 +2,14 @@
 
 use crate::droplets::{self, Spectrum};
 use crate::error::Error;
+use crate::phase::FogPhase;
 use crate::resources::Resources;
 use fog_core::optics_table::OpticsTable;
 use fog_optics::droplets::DropletFog;
 use fog_optics::layer::{self, FogLayer};
-use fog_optics::layer_csv;
-use fog_optics::mean_diameter::{self, diameter_table};
 use fog_optics::state::FogState;
-use fog_plan::{FogModel, FogSpec, Phase};
+use fog_optics::{coefficient, layer_csv};
+use fog_plan::{Coefficient, FogModel, FogSpec};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
 
@@ -21,6 +21,9 @@ pub struct Fog {
     layer: FogLayer,
     droplets: Option<Droplets>,
     g: Option<f64>,
+    phase_record: Value,
+    /// Where the extinction comes from droplets.
+    coefficient: Option<Coefficient>,
     datum_m: f64,
 }
 
@@ -48,29 +51,16 @@ impl Fog {
             }
         }
         let spectrum = droplets.as_ref().and_then(|d| d.spectrum.as_ref());
-        let (phase, g) = match spec.phase {
-            Phase::Hg(g) => (fog_scene::phase::Phase::HenyeyGreenstein { g: g as f32 }, Some(g)),
-            Phase::Mie => {
-                let table = match spectrum {
-                    Some(spectrum) => &spectrum.table,
-                    None => resources.polydisperse()?,
-                };
-                (fog_scene::phase::Phase::Table(table.clone()), None)
-            }
-            Phase::MieMeanDiameter => {
-                let table = match spectrum {
-                    Some(spectrum) => diameter_table(
-                        spectrum.distribution.mean_diameter_um(),
-                        mean_diameter::WAVELENGTH_NM,
-                    )?,
-                    None => resources.mean_diameter()?.clone(),
-                };
-                let g = table.view().g[0];
-                (fog_scene::phase::Phase::Table(table), Some(g))
-            }
-        };
+        let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, spectrum, resources)?;
         let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
-        Ok(Some(Self { medium, layer, droplets, g, datum_m: spec.datum_m }))
+        let coefficient = from_droplets(&spec.model).then_some(spec.coefficient);
+        let datum_m = spec.datum_m;
+        Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, datum_m }))
+    }
+
+    /// Phase function and scattering coefficient as they are recorded.
+    pub(crate) fn optics_json(&self) -> [(&'static str, Value); 2] {
+        [("phase", self.phase_record.clone()), ("coefficient", json!(self.coefficient))]
     }
 
     /// Altitude over the fog's datum of world height `y`, in metres.
@@ -94,6 +84,9 @@ impl Fog {
         let Some(d) = &self.droplets else { return Ok(grey) };
         let mut state = FogState::droplets(&d.table, &d.fog, altitude_m);
         (state.sigma_t_550_1_m, state.mor_m) = (grey.sigma_t_550_1_m, grey.mor_m);
+        if self.coefficient == Some(Coefficient::Paper) {
+            state.albedo = state.albedo.and(grey.albedo);
+        }
         if state.g.is_some() && self.g.is_some() {
             state.g = self.g;
         }
@@ -126,18 +119,36 @@ impl Fog {
     }
 }
 
+/// True if the extinction of the layer, or a part of it, is that of droplets.
+fn from_droplets(model: &FogModel) -> bool {
+    match model {
+        FogModel::None | FogModel::Layered { .. } => false,
+        FogModel::Advection { .. } | FogModel::Droplets { .. } => true,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none(),
+        FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none()
+        }
+    }
+}
+
 /// The layer of a model, and its droplets where the model has them.
 fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
+    let layer_from = |table: &OpticsTable, fog: &DropletFog| -> Result<FogLayer, Error> {
+        Ok(match spec.coefficient {
+            Coefficient::Integral => layer::droplets(table, fog),
+            Coefficient::Paper => coefficient::paper_layer(fog, table.view().wavelengths_nm)?,
+        })
+    };
     // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
     let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        Ok(layer::advection(resources.polydisperse()?, &resources.model, height_m, 1.0)?)
+        layer_from(resources.polydisperse()?, &DropletFog::advection(&resources.model, height_m)?)
     };
     let layer = match &spec.model {
         FogModel::None => return Ok(None),
         FogModel::Advection { height_m, number_density_scale } => {
             let fog = DropletFog::advection(&resources.model, *height_m)?.scaled(*number_density_scale)?;
             let table = resources.polydisperse()?.clone();
-            return Ok(Some((layer::droplets(&table, &fog), Some(Droplets { table, fog, spectrum: None }))));
+            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum: None }))));
         }
         FogModel::Droplets { height_m, droplets, number_density_1_m3, vertical } => {
             let spectrum = resources.spectrum(droplets)?;
@@ -146,7 +157,7 @@ fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, O
             let fog =
                 droplets::fog(spectrum, *number_density_1_m3, scaled_later, vertical, *height_m, model)?;
             let (table, spectrum) = (spectrum.table.clone(), Some(spectrum.clone()));
-            return Ok(Some((layer::droplets(&table, &fog), Some(Droplets { table, fog, spectrum }))));
+            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum }))));
         }
         FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
             let sigma =

@@ -22,6 +22,7 @@ mod error;
 mod fog;
 mod frame;
 mod lighting;
+mod phase;
 mod progress;
 mod record;
 mod resources;
@@ -43,7 +44,7 @@ pub use frame::{Rendered, camera, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
 pub use resources::Resources;
 pub use sweep::{Selection, output_set, path_count, sweep};
-pub use table_cache::{TableCache, TableOrigin};
+pub use table_cache::{Stored, TableCache, TableOrigin};
 
 /// Digest of the sources, dependencies and tables that this program was built from: frames of equal specification and
 /// equal digest have equal bytes.

@@ -5,17 +5,23 @@ use crate::error::Error;
 use crate::progress::{Event, Progress};
 use crate::table_cache::TableCache;
 use fog_core::colour::Observer;
+use fog_core::diameter_choice::DiameterChoice;
+use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::OpticsTable;
 use fog_optics::advection::AdvectionModel;
+use fog_optics::droplet_table;
 use fog_optics::droplets::Spectra;
 use fog_optics::mean_diameter::{self, mean_diameter_table};
 use fog_optics::table::{self, TableSettings};
-use fog_plan::{DropletsSpec, FogModel, FrameSpec, Phase};
+use fog_plan::{DropletsSpec, FogModel, FogSpec, FrameSpec, MeanCosine, Phase, Sampling};
 use fog_scene::{Limits, LoadedScene};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// Key of the advection model's droplets among the configured ones, which are names or JSON.
+const ADVECTION: &str = "advection";
 
 /// Tables and scenes by name. Fill it with [`Resources::prepare`] before frames are made from it.
 #[derive(Debug)]
@@ -28,6 +34,7 @@ pub struct Resources {
     polydisperse: Option<OpticsTable>,
     mean_diameter: Option<OpticsTable>,
     spectra: HashMap<String, Result<Spectrum, String>>,
+    single: HashMap<String, (DropletTable, DiameterChoice)>,
     scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
     empty: Arc<LoadedScene>,
 }
@@ -45,6 +52,7 @@ impl Resources {
             polydisperse: None,
             mean_diameter: None,
             spectra: HashMap::new(),
+            single: HashMap::new(),
             scenes: HashMap::new(),
             empty: Arc::new(LoadedScene::default()),
         })
@@ -71,6 +79,19 @@ impl Resources {
                 self.table("droplets", &format!("Mie, {}", key(droplets)), spectra, progress)
             });
             self.spectra.insert(key(droplets), spectrum.map_err(|e| e.to_string()));
+        }
+        if needs_single_droplets(&spec.fog) && !self.single.contains_key(&single_key(&spec.fog.model)) {
+            let spectra = match &spec.fog.model {
+                // Why the spectrum could not be had is reported by `Resources::spectrum`.
+                FogModel::Droplets { droplets, .. } => {
+                    self.spectrum(droplets).ok().map(|s| Spectra::Same(s.distribution.clone()))
+                }
+                _ => Some(Spectra::Advection(self.model.clone())),
+            };
+            if let Some(spectra) = spectra {
+                let single = self.single_droplets(&spectra, progress)?;
+                self.single.insert(single_key(&spec.fog.model), single);
+            }
         }
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
@@ -112,6 +133,27 @@ impl Resources {
         Ok(table)
     }
 
+    /// Single droplets of `spectra` at the renderer's wavelengths, and their odds at its altitudes.
+    fn single_droplets(
+        &self,
+        spectra: &Spectra,
+        progress: &dyn Progress,
+    ) -> Result<(DropletTable, DiameterChoice), Error> {
+        let TableSettings { zeta, wavelengths_nm, diameters } = TableSettings::visible_of(spectra);
+        let fingerprint = droplet_table::fingerprint_bytes(&diameters, &wavelengths_nm);
+        let started = Instant::now();
+        let (table, origin) = self.cache.open("single", &fingerprint, || {
+            let report = |fraction| {
+                progress.event(Event::TableProgress(fraction));
+            };
+            Ok(droplet_table::build(&diameters, &wavelengths_nm, &report)?)
+        })?;
+        let choice = droplet_table::choice(&table, &diameters, &zeta, spectra)?;
+        let seconds = started.elapsed().as_secs_f64();
+        progress.event(Event::Table { name: "single droplets", origin: &origin, seconds });
+        Ok((table, choice))
+    }
+
     /// The spectrum of a specification.
     ///
     /// # Errors
@@ -142,9 +184,28 @@ impl Resources {
         self.polydisperse.as_ref().ok_or_else(|| Error::Fog("optics table was not prepared".to_owned()))
     }
 
+    /// Single droplets of a model, and their odds.
+    pub(crate) fn single(&self, model: &FogModel) -> Result<&(DropletTable, DiameterChoice), Error> {
+        let single = self.single.get(&single_key(model));
+        single.ok_or_else(|| Error::Fog("droplet table was not prepared".to_owned()))
+    }
+
     pub(crate) fn mean_diameter(&self) -> Result<&OpticsTable, Error> {
         self.mean_diameter.as_ref().ok_or_else(|| Error::Fog("phase table was not prepared".to_owned()))
     }
+}
+
+/// Key of the single droplets of a model.
+fn single_key(model: &FogModel) -> String {
+    match model {
+        FogModel::Droplets { droplets, .. } => key(droplets),
+        _ => ADVECTION.to_owned(),
+    }
+}
+
+/// True if the fog draws single droplets.
+fn needs_single_droplets(fog: &FogSpec) -> bool {
+    fog.model != FogModel::None && fog.phase == Phase::Mie && fog.sampling == Sampling::Diameter
 }
 
 /// A spectrum's specification as text: its name, or JSON.
@@ -157,13 +218,14 @@ fn key(droplets: &DropletsSpec) -> String {
 
 /// True if the frame's extinction or phase function comes from the polydisperse table.
 fn needs_polydisperse(spec: &FrameSpec) -> bool {
+    let by_altitude = matches!(spec.fog.phase, Phase::Mie | Phase::Hg(MeanCosine::Layer));
     match &spec.fog.model {
         FogModel::None | FogModel::Droplets { .. } => false,
         FogModel::Advection { .. } => true,
-        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none() || spec.fog.phase == Phase::Mie,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none() || by_altitude,
         FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
-            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none() || spec.fog.phase == Phase::Mie
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none() || by_altitude
         }
-        FogModel::Layered { .. } => spec.fog.phase == Phase::Mie,
+        FogModel::Layered { .. } => by_altitude,
     }
 }

@@ -13,6 +13,7 @@ mod fit;
 mod mie;
 mod mistakes;
 mod optics;
+mod phases;
 mod pipes;
 mod records;
 mod visibility;

@@ -118,7 +118,7 @@ mod tests {
 
     /// ∫₀^m of the density by Simpson's rule over steps that are even in the fourth root.
     fn integral(p: &Draine, m: f64, weight: impl Fn(f64) -> f64) -> f64 {
-        let n = 4000;
+        let n = 40_000;
         let top = m.sqrt().sqrt();
         let f = |v: f64| {
             let x = v.powi(4);

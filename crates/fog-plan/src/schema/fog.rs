@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     droplets::{DropletsFile, VerticalFile},
     or_none::Example,
+    phase::PhaseFile,
 };
 use crate::ranges;
 
@@ -48,6 +49,13 @@ pub(crate) struct FogFile {
     pub(crate) single_scattering_albedo: Option<f64>,
     /// Where scattered light goes.
     pub(crate) phase: PhaseFile,
+    /// Which scattering coefficient the droplets give (advection, and homogeneous or linear_gradient whose extinction is
+    /// taken from an advection layer). Absent: integral.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) coefficient: Option<CoefficientFile>,
+    /// How `phase: mie` is sampled. Absent: table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sampling: Option<SamplingFile>,
     /// Scales the layer so that it has this visibility.
     pub(crate) visibility: Option<VisibilityFile>,
     /// World height of altitude 0, in metres.
@@ -70,6 +78,8 @@ impl Default for FogFile {
             file: None,
             single_scattering_albedo: None,
             phase: PhaseFile::Mie,
+            coefficient: None,
+            sampling: None,
             visibility: None,
             datum_m: 0.0,
         }
@@ -110,18 +120,27 @@ impl FogModelName {
     }
 }
 
-/// The phase functions.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, Serialize)]
+/// What the droplets of a layer add up to.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "Phase")]
-pub(crate) enum PhaseFile {
-    /// Mie scattering of the fog's droplets by wavelength; of a model without droplets, and of advection, that of the
-    /// advection model's, by altitude relative to the layer too.
-    Mie,
-    /// Henyey–Greenstein with this mean cosine.
-    Hg(#[schemars(range(min = ranges::HG_G.min, max = ranges::HG_G.max))] f64),
-    /// Mie scattering of the mean droplet (the paper's table).
-    MieMeanDiameter,
+#[schemars(rename = "Coefficient")]
+pub(crate) enum CoefficientFile {
+    /// Extinction by all droplets: the integral of n(d) C(d) over their diameters.
+    Integral,
+    /// The convention of Kolářová et al. 2024, Eq. 4: N σ(d) with the density at the sampled diameter taken for a number,
+    /// averaged over diameters sampled by number; 15 to 29 times less.
+    Paper,
+}
+
+/// How a direction is found in which droplets scatter.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Sampling")]
+pub(crate) enum SamplingFile {
+    /// From the phase function of all droplets together.
+    Table,
+    /// From that of one droplet, drawn by how much it scatters: the same light in the mean, with more noise.
+    Diameter,
 }
 
 /// A visibility at an altitude.

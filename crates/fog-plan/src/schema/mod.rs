@@ -7,6 +7,7 @@ mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod phase;
 mod sweep;
 
 use schemars::JsonSchema;
@@ -14,9 +15,10 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
-pub(crate) use fog::{FogFile, FogModelName, PhaseFile, VisibilityFile};
+pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
 pub(crate) use or_none::OrNone;
+pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
 use or_none::Example;
