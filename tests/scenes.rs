@@ -128,7 +128,7 @@ pub fn droplets() -> Droplets {
 
 /// A layer of [`droplets`] whose extinction depends on the wavelength, by mixtures or by single droplets.
 #[must_use]
-pub fn droplet_fog(height_m: f64, sigma_t_1_m: f64, single: bool) -> Medium {
+pub fn parcel(height_m: f64, sigma_t_1_m: f64, single: bool) -> Medium {
     let Droplets { mixtures, single: table, choice } = droplets();
     let phase = if single { Phase::Droplets { table, choice } } else { Phase::Table(mixtures) };
     Medium::new(coloured_profile(height_m, sigma_t_1_m, 1.0), phase)

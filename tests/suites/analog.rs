@@ -91,7 +91,7 @@ fn emitting_surfaces() {
 
 #[test]
 fn single_droplets() {
-    let fog = Some(scenes::droplet_fog(80.0, 0.02, true));
+    let fog = Some(scenes::parcel(80.0, 0.02, true));
     let sun = Some(Sun::new(35.0, 150.0, 2.0, 10.0));
     let scene = Scene::new(scenes::load("street_night.glb"), fog, None, sun, true);
     assert_agree("droplets", &scene, &RAYS[..2], None, 300_000);

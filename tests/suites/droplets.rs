@@ -77,7 +77,7 @@ fn assert_same_light(
 
 fn sunny() -> [Scene; 2] {
     [false, true].map(|single| {
-        let (fog, sun) = (scenes::droplet_fog(80.0, 0.02, single), Sun::new(35.0, 150.0, 2.0, 2.0));
+        let (fog, sun) = (scenes::parcel(80.0, 0.02, single), Sun::new(35.0, 150.0, 2.0, 2.0));
         Scene::new(scenes::empty(), Some(fog), None, Some(sun), false)
     })
 }

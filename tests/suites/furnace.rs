@@ -55,7 +55,7 @@ fn single_droplets_and_closed_forms() {
     let fit = jendersie_deon::phase_function(12.0).unwrap();
     let grey = scenes::grey_profile(100.0, &[0.03, 0.06, 0.015], 1.0);
     for (name, fog) in [
-        ("single droplets", scenes::droplet_fog(100.0, 0.05, true)),
+        ("single droplets", scenes::parcel(100.0, 0.05, true)),
         ("jendersie_deon", Medium::new(grey, Phase::HgDraine(fit))),
     ] {
         let scene = Scene::new(scenes::empty(), Some(fog), WHITE, None, false);

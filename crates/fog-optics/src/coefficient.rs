@@ -8,7 +8,7 @@
 //! comparison with the paper's pictures.
 
 use crate::distribution::DiameterGrid;
-use crate::droplets::DropletFog;
+use crate::droplets::DropletLayer;
 use crate::error::OpticsError;
 use crate::layer::FogLayer;
 use crate::mie::{Complex64, efficiencies};
@@ -26,7 +26,7 @@ pub const INTERVAL_UM: f64 = 1.0;
 /// # Errors
 /// If the wavelength is outside the table of water or the diameter outside the range of [`crate::mie`].
 pub fn per_diameter_1_m(
-    fog: &DropletFog,
+    fog: &DropletLayer,
     diameter_um: f64,
     zeta: f64,
     wavelength_nm: f64,
@@ -47,7 +47,7 @@ pub fn per_diameter_1_m(
 ///
 /// # Errors
 /// If a wavelength is outside the table of water, or there is none.
-pub fn paper_layer(fog: &DropletFog, wavelengths_nm: &[f64]) -> Result<FogLayer, OpticsError> {
+pub fn paper_layer(fog: &DropletLayer, wavelengths_nm: &[f64]) -> Result<FogLayer, OpticsError> {
     let w = wavelengths_nm.len();
     if w == 0 {
         return Err(OpticsError::Settings("wavelengths_nm needs a value".to_owned()));
@@ -111,14 +111,14 @@ mod tests {
     use crate::table::{TableSettings, build};
     use crate::vertical::VerticalProfile;
 
-    fn advection(height_m: f64) -> DropletFog {
-        DropletFog::advection(&AdvectionModel::arcata().unwrap(), height_m).unwrap()
+    fn advection(height_m: f64) -> DropletLayer {
+        DropletLayer::advection(&AdvectionModel::arcata().unwrap(), height_m).unwrap()
     }
 
     #[test]
     fn the_layer_is_the_mean_over_sampled_diameters() {
         let gamma = Spectra::Same(SizeDistribution::gamma(5.0, 0.1).unwrap());
-        let gamma = DropletFog::new(gamma, VerticalProfile::uniform(), 1e8, 60.0).unwrap();
+        let gamma = DropletLayer::new(gamma, VerticalProfile::uniform(), 1e8, 60.0).unwrap();
         for fog in [advection(180.0).scaled(2.0).unwrap(), gamma] {
             let layer = paper_layer(&fog, &[550.0]).unwrap();
             for zeta in [0.0, 0.25, 1.0] {

@@ -34,14 +34,14 @@ impl Spectra {
 
 /// Spectra, numbers and thickness of a fog layer.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DropletFog {
+pub struct DropletLayer {
     spectra: Spectra,
     profile: VerticalProfile,
     number_density_1_m3: f64,
     height_m: f64,
 }
 
-impl DropletFog {
+impl DropletLayer {
     /// A fog with `number_density_1_m3` droplets per m³ in the mean over its altitudes, of all diameters
     /// ([`SizeDistribution::share_in_range`] of them lie in the spectrum's range), distributed over altitude by `profile`, in
     /// a layer of `height_m`, 1 to 5000.
@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn wrong_heights_and_numbers_are_refused() {
         let gamma = Spectra::Same(SizeDistribution::gamma(5.0, 0.1).unwrap());
-        let fog = |number, height| DropletFog::new(gamma.clone(), VerticalProfile::uniform(), number, height);
+        let fog =
+            |number, height| DropletLayer::new(gamma.clone(), VerticalProfile::uniform(), number, height);
         for bad in [0.0, -10.0, 5001.0, f64::NAN] {
             assert!(fog(1e8, bad).unwrap_err().to_string().contains("fog height_m"), "{bad}");
         }
@@ -125,7 +126,7 @@ mod tests {
     #[test]
     fn advection_fog_is_its_models() {
         let model = AdvectionModel::arcata().unwrap();
-        let fog = DropletFog::advection(&model, 180.0).unwrap();
+        let fog = DropletLayer::advection(&model, 180.0).unwrap();
         let n = fog.number_density_1_m3(0.75) / model.number_density_1_m3(0.75, 180.0);
         assert!((n - 1.0).abs() < 1e-13);
         assert_eq!(fog.spectra().distribution(0.3), model.distribution(0.3));

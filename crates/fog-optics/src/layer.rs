@@ -1,7 +1,7 @@
 //! Fog layers: extinction and albedo by altitude and wavelength, and what the paper derives from them.
 
 use crate::advection::AdvectionModel;
-use crate::droplets::DropletFog;
+use crate::droplets::DropletLayer;
 use crate::error::{OpticsError, check_range};
 use crate::vertical::NODES;
 use crate::visibility::sigma_t_from_mor;
@@ -27,7 +27,7 @@ pub struct FogLayer {
 /// σ_t(z, λ) = N(ζ) C_ext(ζ, λ) at 1025 altitudes, C from `table` by cubic interpolation in ζ. Wavelengths are those of the
 /// table.
 #[must_use]
-pub fn droplets(table: &OpticsTable, fog: &DropletFog) -> FogLayer {
+pub fn droplets(table: &OpticsTable, fog: &DropletLayer) -> FogLayer {
     let view = table.view();
     let last = NODES - 1;
     let (mut altitude_m, mut sigma_t, mut albedo) = (Vec::new(), Vec::new(), Vec::new());
@@ -45,7 +45,7 @@ pub fn droplets(table: &OpticsTable, fog: &DropletFog) -> FogLayer {
 }
 
 /// The advection fog of `model` with height `height_m`, its number of droplets multiplied by `number_density_scale`:
-/// [`droplets`] of [`DropletFog::advection`].
+/// [`droplets`] of [`DropletLayer::advection`].
 ///
 /// # Errors
 /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`], or the scale is not in 0 to 1e6.
@@ -55,7 +55,7 @@ pub fn advection(
     height_m: f64,
     number_density_scale: f64,
 ) -> Result<FogLayer, OpticsError> {
-    Ok(droplets(table, &DropletFog::advection(model, height_m)?.scaled(number_density_scale)?))
+    Ok(droplets(table, &DropletLayer::advection(model, height_m)?.scaled(number_density_scale)?))
 }
 
 /// A layer with the same `sigma_t_1_m` and single-scattering albedo from its base to `height_m`, at every wavelength.

@@ -4,9 +4,9 @@
 //! S = σ_t / β in sr. Single scattering: a real beam in fog also returns light scattered several times forward.
 
 use crate::distribution::DiameterGrid;
-use crate::droplet_fog::DropletFog;
 use crate::error::{OpticsError, check_range};
 use crate::mie::{Complex64, MieSeries};
+use crate::parcel::FogParcel;
 use crate::size::SizeDistribution;
 use crate::water;
 use fog_core::math::PI;
@@ -60,7 +60,7 @@ impl Lidar {
     ///
     /// # Errors
     /// If the wavelength is outside [`WAVELENGTH_RANGE_NM`], or a droplet outside the range of [`crate::mie`].
-    pub fn new(fog: &DropletFog, wavelength_nm: f64) -> Result<Self, OpticsError> {
+    pub fn new(fog: &FogParcel, wavelength_nm: f64) -> Result<Self, OpticsError> {
         check_range("wavelength_nm", wavelength_nm, WAVELENGTH_RANGE_NM[0], WAVELENGTH_RANGE_NM[1])?;
         let optics = fog.optics(wavelength_nm)?;
         Ok(Self {
@@ -151,7 +151,7 @@ fn between(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::droplet_fog::Amount;
+    use crate::parcel::Amount;
     use crate::size::ModifiedGamma;
 
     #[test]
@@ -182,14 +182,13 @@ mod tests {
         // O'Connor, Illingworth & Hogan, J. Atmos. Oceanic Technol. 21, 777 (2004): 18.8 ± 0.8 sr at 905 nm for
         // stratocumulus droplets, over gamma distributions.
         for (radius, variance) in [(5.0, 0.1), (8.0, 0.1), (10.0, 0.15)] {
-            let fog = DropletFog::new(SizeDistribution::gamma(radius, variance).unwrap(), Amount::Mor(100.0))
+            let fog = FogParcel::new(SizeDistribution::gamma(radius, variance).unwrap(), Amount::Mor(100.0))
                 .unwrap();
             let lidar = Lidar::new(&fog, 905.0).unwrap();
             assert!((17.5..20.5).contains(&lidar.lidar_ratio_sr), "{radius} {variance}: {lidar:?}");
         }
         let c1 = ModifiedGamma { alpha: 6.0, b: 1.5, gamma: 1.0 };
-        let fog =
-            DropletFog::new(SizeDistribution::modified_gamma(c1).unwrap(), Amount::Number(1e8)).unwrap();
+        let fog = FogParcel::new(SizeDistribution::modified_gamma(c1).unwrap(), Amount::Number(1e8)).unwrap();
         let lidar = Lidar::new(&fog, 905.0).unwrap();
         assert!((17.5..20.5).contains(&lidar.lidar_ratio_sr), "C1: {lidar:?}");
         assert!(Lidar::new(&fog, 299.0).is_err() && Lidar::new(&fog, 2501.0).is_err());

@@ -1,7 +1,7 @@
 //! What the fog is at one altitude: the numbers that a data set records with a frame.
 
 use crate::advection::AdvectionModel;
-use crate::droplets::DropletFog;
+use crate::droplets::DropletLayer;
 use crate::error::OpticsError;
 use crate::layer::{FogLayer, REFERENCE_NM, cross_sections_at};
 use crate::visibility::mor_m;
@@ -32,7 +32,7 @@ pub struct FogState {
 impl FogState {
     /// The fog of [`crate::layer::droplets`] at an altitude in m over its base.
     #[must_use]
-    pub fn droplets(table: &OpticsTable, fog: &DropletFog, altitude_m: f64) -> Self {
+    pub fn droplets(table: &OpticsTable, fog: &DropletLayer, altitude_m: f64) -> Self {
         let zeta = altitude_m / fog.height_m();
         let n = fog.number_density_1_m3(zeta);
         if n.is_nan() || n <= 0.0 {
@@ -64,7 +64,7 @@ impl FogState {
         number_density_scale: f64,
         altitude_m: f64,
     ) -> Result<Self, OpticsError> {
-        let fog = DropletFog::advection(model, height_m)?.scaled(number_density_scale)?;
+        let fog = DropletLayer::advection(model, height_m)?.scaled(number_density_scale)?;
         Ok(Self::droplets(table, &fog, altitude_m))
     }
 

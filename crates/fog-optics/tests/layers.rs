@@ -4,7 +4,7 @@ use fog_core::phase_grid;
 use fog_optics::advection::AdvectionModel;
 use fog_optics::catalogue;
 use fog_optics::distribution::DiameterGrid;
-use fog_optics::droplets::{DropletFog, Spectra};
+use fog_optics::droplets::{DropletLayer, Spectra};
 use fog_optics::error::OpticsError;
 use fog_optics::layer::{self, FogLayer};
 use fog_optics::layer_csv::parse_layers;
@@ -90,7 +90,7 @@ fn a_named_fog_has_its_extinction_water_and_phase_function() {
         TableSettings { wavelengths_nm: vec![450.0, 550.0, 650.0], ..TableSettings::visible_of(&spectra) };
     let table = build(&spectra, &settings, &|_| ()).unwrap();
     let thinning = VerticalProfile::thinning(1.0).unwrap();
-    let fog = DropletFog::new(spectra, thinning, named.number_density_1_m3, 40.0).unwrap();
+    let fog = DropletLayer::new(spectra, thinning, named.number_density_1_m3, 40.0).unwrap();
     let layer = layer::droplets(&table, &fog);
 
     // Half way up, where a linear profile has its mean: the catalogue's fog itself.

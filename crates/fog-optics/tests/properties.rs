@@ -4,7 +4,7 @@
 use fog_core::optics_table::OpticsTable;
 use fog_optics::advection::{AdvectionModel, HEIGHT_RANGE_M};
 use fog_optics::distribution::{DiameterGrid, SpectrumShape};
-use fog_optics::droplets::{self, DropletFog, Spectra};
+use fog_optics::droplets::{self, DropletLayer, Spectra};
 use fog_optics::error::OpticsError;
 use fog_optics::layer;
 use fog_optics::size::{LognormalMode, ModifiedGamma, SizeDistribution};
@@ -128,7 +128,7 @@ fn table(spectra: &Spectra) -> OpticsTable {
     build(spectra, &settings, &|_| ()).unwrap()
 }
 
-fn check_fog(fog: &DropletFog, table: &OpticsTable) -> Result<(), TestCaseError> {
+fn check_fog(fog: &DropletLayer, table: &OpticsTable) -> Result<(), TestCaseError> {
     let layer = layer::droplets(table, fog);
     let profile = layer.profile(12.5).unwrap();
     let height = fog.height_m();
@@ -198,10 +198,10 @@ proptest! {
     fn heights_outside_are_refused(height in prop_oneof![-1e6..0.999f64, 5001.0..1e9f64, Just(f64::NAN)]) {
         let spectra = Spectra::Same(SizeDistribution::gamma(5.0, 0.1).unwrap());
         let [low, high] = droplets::HEIGHT_RANGE_M;
-        let message = DropletFog::new(spectra, VerticalProfile::uniform(), 1e8, height).unwrap_err().to_string();
+        let message = DropletLayer::new(spectra, VerticalProfile::uniform(), 1e8, height).unwrap_err().to_string();
         prop_assert!(message.contains("fog height_m") && message.contains(&format!("{low} to {high}")), "{message}");
         let model = AdvectionModel::arcata().unwrap();
-        let message = DropletFog::advection(&model, height).unwrap_err().to_string();
+        let message = DropletLayer::advection(&model, height).unwrap_err().to_string();
         let [low, high] = HEIGHT_RANGE_M;
         prop_assert!(message.contains(&format!("{low} to {high}")), "{message}");
     }
@@ -222,7 +222,7 @@ proptest! {
         let Some(distribution) = made.ok().filter(small) else { return Ok(()) };
         let optics = distribution.optics(550.0).unwrap();
         prop_assert!(optics.c_sca_m2 > 0.0 && optics.c_sca_m2 <= optics.c_ext_m2 && optics.c_back_m2_sr >= 0.0, "{optics:?}");
-        let fog = DropletFog::new(Spectra::Same(distribution), profile, number, height).unwrap();
+        let fog = DropletLayer::new(Spectra::Same(distribution), profile, number, height).unwrap();
         let table = table(fog.spectra());
         // The mean number times the cross section is the mean extinction.
         let mean = layer::droplets(&table, &fog).mean_sigma_t();
@@ -244,7 +244,7 @@ proptest! {
             prop_assert!(moments.share_in_range > 0.0 && moments.share_in_range < 1.001, "{moments:?}");
             prop_assert!(moments.mass_g > 0.0 && moments.effective_radius_um < 30.0, "{moments:?}");
         }
-        match DropletFog::advection(&model, height) {
+        match DropletLayer::advection(&model, height) {
             Ok(fog) => check_fog(&fog, &table(fog.spectra()))?,
             Err(error) => prop_assert!(error.to_string().contains("no droplets"), "{error}"),
         }

@@ -4,7 +4,7 @@ use crate::error::Error;
 use fog_core::optics_table::OpticsTable;
 use fog_optics::advection::AdvectionModel;
 use fog_optics::catalogue;
-use fog_optics::droplets::{DropletFog, Spectra};
+use fog_optics::droplets::{DropletLayer, Spectra};
 use fog_optics::size::{LognormalMode, ModifiedGamma, SizeDistribution};
 use fog_optics::spectrum_csv::parse_spectrum;
 use fog_optics::vertical::VerticalProfile;
@@ -92,7 +92,7 @@ pub(crate) fn fog(
     vertical: &VerticalSpec,
     height_m: f64,
     model: &AdvectionModel,
-) -> Result<DropletFog, Error> {
+) -> Result<DropletLayer, Error> {
     let any = scaled_later.then_some(ANY_NUMBER_1_M3);
     let number = number_density_1_m3.or(spectrum.number_density_1_m3).or(any).ok_or_else(|| {
         let source = &spectrum.source;
@@ -110,7 +110,7 @@ pub(crate) fn fog(
         }
         VerticalSpec::File(file) => VerticalProfile::from_csv(&text(file)?, &file.display().to_string())?,
     };
-    Ok(DropletFog::new(Spectra::Same(spectrum.distribution.clone()), profile, number, height_m)?)
+    Ok(DropletLayer::new(Spectra::Same(spectrum.distribution.clone()), profile, number, height_m)?)
 }
 
 fn text(file: &Path) -> Result<String, Error> {

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::phase::FogPhase;
 use crate::resources::Resources;
 use fog_core::optics_table::OpticsTable;
-use fog_optics::droplets::DropletFog;
+use fog_optics::droplets::DropletLayer;
 use fog_optics::layer::{self, FogLayer};
 use fog_optics::state::FogState;
 use fog_optics::{coefficient, layer_csv};
@@ -31,7 +31,7 @@ pub struct Fog {
 #[derive(Clone, Debug)]
 struct Droplets {
     table: OpticsTable,
-    fog: DropletFog,
+    fog: DropletLayer,
     /// The configured spectrum; none for the advection model's, which vary with altitude.
     spectrum: Option<Spectrum>,
 }
@@ -133,7 +133,7 @@ fn from_droplets(model: &FogModel) -> bool {
 
 /// The layer of a model, and its droplets where the model has them.
 fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
-    let layer_from = |table: &OpticsTable, fog: &DropletFog| -> Result<FogLayer, Error> {
+    let layer_from = |table: &OpticsTable, fog: &DropletLayer| -> Result<FogLayer, Error> {
         Ok(match spec.coefficient {
             Coefficient::Integral => layer::droplets(table, fog),
             Coefficient::Paper => coefficient::paper_layer(fog, table.view().wavelengths_nm)?,
@@ -141,12 +141,12 @@ fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, O
     };
     // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
     let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        layer_from(resources.polydisperse()?, &DropletFog::advection(&resources.model, height_m)?)
+        layer_from(resources.polydisperse()?, &DropletLayer::advection(&resources.model, height_m)?)
     };
     let layer = match &spec.model {
         FogModel::None => return Ok(None),
         FogModel::Advection { height_m, number_density_scale } => {
-            let fog = DropletFog::advection(&resources.model, *height_m)?.scaled(*number_density_scale)?;
+            let fog = DropletLayer::advection(&resources.model, *height_m)?.scaled(*number_density_scale)?;
             let table = resources.polydisperse()?.clone();
             return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum: None }))));
         }

@@ -5,7 +5,7 @@ use crate::args::FogSourceArgs;
 use crate::print;
 use anyhow::{Result, bail};
 use fogbank::optics::advection::AdvectionModel;
-use fogbank::optics::droplet_fog::{Amount, DropletFog, Family};
+use fogbank::optics::parcel::{Amount, Family, FogParcel};
 use fogbank::optics::visibility::sigma_t_from_mor;
 
 /// Effective variance of n(r) ∝ r⁶ e^(−br).
@@ -21,7 +21,7 @@ pub(super) enum FogSource {
         mor_m: Option<f64>,
     },
     /// The same droplets everywhere.
-    Droplets { fog: DropletFog, description: String },
+    Droplets { fog: FogParcel, description: String },
     /// Extinction in 1/m, whatever makes it.
     Extinction(f64),
 }
@@ -110,6 +110,6 @@ fn of_spectrum(name: &str, amounts: &[Amount]) -> Result<FogSource> {
             amounts.len()
         ),
     };
-    let fog = DropletFog::new(spectrum.distribution, amount)?;
+    let fog = FogParcel::new(spectrum.distribution, amount)?;
     Ok(FogSource::Droplets { fog, description: spectrum.description })
 }

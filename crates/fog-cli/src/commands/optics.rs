@@ -4,8 +4,8 @@ use super::fog_source::FogSource;
 use crate::args::OpticsArgs;
 use crate::rows::{self, Cell};
 use anyhow::{Result, bail};
-use fogbank::optics::droplet_fog::{DropletFog, FogOptics};
 use fogbank::optics::lidar::{self, BackscatterKernel};
+use fogbank::optics::parcel::{FogOptics, FogParcel};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &OpticsArgs) -> Result<ExitCode> {
 }
 
 /// Altitudes (none where it does not matter) with the fog there; no fog where the model has no droplets.
-fn fogs(args: &OpticsArgs) -> Result<Vec<(Option<f64>, Option<DropletFog>)>> {
+fn fogs(args: &OpticsArgs) -> Result<Vec<(Option<f64>, Option<FogParcel>)>> {
     let altitudes = &args.fog.altitude;
     match FogSource::new(&args.fog)? {
         FogSource::Advection { model, height_m, mor_m } => {
@@ -61,7 +61,7 @@ fn fogs(args: &OpticsArgs) -> Result<Vec<(Option<f64>, Option<DropletFog>)>> {
             }
             let mut fogs = Vec::new();
             for &altitude in altitudes {
-                fogs.push((Some(altitude), DropletFog::advection(&model, height_m, altitude)?));
+                fogs.push((Some(altitude), FogParcel::advection(&model, height_m, altitude)?));
             }
             if let Some(mor_m) = mor_m {
                 let Some(first) = &fogs[0].1 else {
@@ -85,7 +85,7 @@ fn fogs(args: &OpticsArgs) -> Result<Vec<(Option<f64>, Option<DropletFog>)>> {
 }
 
 /// Every fog at one wavelength. Fogs over the same diameters share the sums over spheres.
-fn all_at(fogs: &[(Option<f64>, Option<DropletFog>)], nm: f64) -> Result<Vec<Option<FogOptics>>> {
+fn all_at(fogs: &[(Option<f64>, Option<FogParcel>)], nm: f64) -> Result<Vec<Option<FogOptics>>> {
     let Some(first) = fogs.iter().find_map(|(_, fog)| fog.as_ref()) else {
         return Ok(vec![None; fogs.len()]);
     };
@@ -97,7 +97,7 @@ fn all_at(fogs: &[(Option<f64>, Option<DropletFog>)], nm: f64) -> Result<Vec<Opt
     Ok(all)
 }
 
-fn row(altitude_m: Option<f64>, wavelength_nm: f64, fog: Option<(&DropletFog, &FogOptics)>) -> Vec<Cell> {
+fn row(altitude_m: Option<f64>, wavelength_nm: f64, fog: Option<(&FogParcel, &FogOptics)>) -> Vec<Cell> {
     let mut row = vec![Cell::from(altitude_m), Cell::from(wavelength_nm)];
     let Some((fog, o)) = fog else {
         // Clear air: no extinction and no droplets; what they would be like is not defined.

@@ -43,7 +43,7 @@ pub fn gultepe_2006_visibility_m(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::droplet_fog::{Amount, DropletFog};
+    use crate::parcel::{Amount, FogParcel};
     use crate::size::SizeDistribution;
     use crate::visibility::koschmieder_m;
 
@@ -62,7 +62,7 @@ mod tests {
     fn they_agree_with_droplets_within_a_factor_of_two_and_a_half() {
         for water in [0.02, 0.1, 0.3] {
             let spectrum = SizeDistribution::gamma(7.0, 0.15).unwrap();
-            let fog = DropletFog::new(spectrum, Amount::Water(water)).unwrap();
+            let fog = FogParcel::new(spectrum, Amount::Water(water)).unwrap();
             let ours = koschmieder_m(fog.sigma_t_550_1_m());
             let kunkel = koschmieder_m(kunkel_1984_sigma_t(water).unwrap());
             let gultepe = gultepe_2006_visibility_m(water, fog.number_density_1_m3()).unwrap();

@@ -16,7 +16,7 @@ const DEFAULT_SHARE: f64 = 1.0;
 const MAX_LOGNORMALS: usize = 16;
 
 impl Check<'_> {
-    pub(super) fn droplet_fog(&mut self, fog: &FogFile, height_m: Option<f64>) -> Option<FogModel> {
+    pub(super) fn parcel(&mut self, fog: &FogFile, height_m: Option<f64>) -> Option<FogModel> {
         let path = "fog.number_density_1_m3";
         let number = self.optional(path, fog.number_density_1_m3, ranges::NUMBER_DENSITY_1_M3);
         let why = "a name such as shettle_fenn_radiation_heavy, or one of {gamma: …}, {modified_gamma: …}, \

@@ -169,7 +169,7 @@ impl Check<'_> {
                 let scale = self.range("fog.number_density_scale", scale, ranges::DENSITY_SCALE);
                 FogModel::Advection { height_m: height?, number_density_scale: scale? }
             }
-            Droplets => self.droplet_fog(fog, height)?,
+            Droplets => self.parcel(fog, height)?,
             Homogeneous => {
                 let sigma_t = self.optional("fog.sigma_t_1_m", fog.sigma_t_1_m, ranges::SIGMA_T_1_M);
                 FogModel::Homogeneous {

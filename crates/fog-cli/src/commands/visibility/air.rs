@@ -4,9 +4,9 @@ use crate::args::VisibilityArgs;
 use crate::commands::fog_source::FogSource;
 use anyhow::{Context, Result};
 use fogbank::optics::advection::AdvectionModel;
-use fogbank::optics::droplet_fog::DropletFog;
 use fogbank::optics::layer::{self, FogLayer, REFERENCE_NM};
 use fogbank::optics::layer_csv::parse_layers;
+use fogbank::optics::parcel::FogParcel;
 use fogbank::optics::table::{TableSettings, build_table};
 use fogbank::optics::visibility::Sight;
 
@@ -30,7 +30,7 @@ enum Droplets {
         height_m: f64,
         scale: f64,
     },
-    Everywhere(Box<DropletFog>),
+    Everywhere(Box<FogParcel>),
 }
 
 impl Air {
@@ -70,12 +70,12 @@ impl Air {
     }
 
     /// The droplets at an altitude in m, where they are known and there are any.
-    pub(super) fn droplets(&self, altitude_m: f64) -> Result<Option<DropletFog>> {
+    pub(super) fn droplets(&self, altitude_m: f64) -> Result<Option<FogParcel>> {
         Ok(match &self.droplets {
             Droplets::Unknown => None,
             Droplets::Advection { height_m, .. } if !(0.0..=*height_m).contains(&altitude_m) => None,
             Droplets::Advection { model, height_m, scale } => {
-                match DropletFog::advection(model, *height_m, altitude_m)? {
+                match FogParcel::advection(model, *height_m, altitude_m)? {
                     Some(fog) => Some(fog.scaled(*scale)?),
                     None => None,
                 }

@@ -2,7 +2,7 @@
 
 use super::section::Section;
 use anyhow::Result;
-use fogbank::optics::droplet_fog::DropletFog;
+use fogbank::optics::parcel::FogParcel;
 use fogbank::optics::visibility::slant::path_length_m;
 use fogbank::optics::visibility::{Law, Sight, parametrised, transmittance};
 
@@ -23,7 +23,7 @@ pub(super) fn objects(sight: &Sight, altitude_m: f64) -> Result<Section> {
     ))
 }
 
-pub(super) fn water(fog: &DropletFog) -> Section {
+pub(super) fn water(fog: &FogParcel) -> Section {
     let m = fog.moments();
     Section::facts(
         "Droplets".to_owned(),
@@ -41,7 +41,7 @@ pub(super) fn water(fog: &DropletFog) -> Section {
     )
 }
 
-pub(super) fn regressions(fog: &DropletFog) -> Result<Section> {
+pub(super) fn regressions(fog: &FogParcel) -> Result<Section> {
     let (water, number) = (fog.liquid_water_content_g_m3(), fog.number_density_1_m3());
     let kunkel = Law::Koschmieder.range_m(parametrised::kunkel_1984_sigma_t(water)?);
     let gultepe = parametrised::gultepe_2006_visibility_m(water, number)?;

@@ -1,6 +1,6 @@
 //! Droplets of one spectrum in air: number, water, extinction and visibility from one another.
 //!
-//! One amount and a spectrum fix everything ([`DropletFog::new`]); two amounts and a family of spectra fix the droplets'
+//! One amount and a spectrum fix everything ([`FogParcel::new`]); two amounts and a family of spectra fix the droplets'
 //! size too ([`Family::fog`]).
 
 mod family;
@@ -45,7 +45,7 @@ impl Amount {
 
 /// Droplets of one spectrum, so many per m³.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DropletFog {
+pub struct FogParcel {
     distribution: SizeDistribution,
     moments: DropletMoments,
     reference: MeanOptics,
@@ -53,7 +53,7 @@ pub struct DropletFog {
     factor_1_m3: f64,
 }
 
-impl DropletFog {
+impl FogParcel {
     /// Fog of a spectrum in the amount given.
     ///
     /// # Errors
@@ -101,7 +101,7 @@ impl DropletFog {
         Ok(Self { factor_1_m3: self.factor_1_m3 * factor, ..self.clone() })
     }
 
-    /// The argument of [`DropletFog::scaled`] that makes the meteorological optical range `mor_m`.
+    /// The argument of [`FogParcel::scaled`] that makes the meteorological optical range `mor_m`.
     ///
     /// # Errors
     /// If the range is out of that of [`Amount::Mor`], or there are no droplets to be scaled.
@@ -160,7 +160,7 @@ impl DropletFog {
         self.optics_with(&BackscatterKernel::new(self.distribution.grid(), wavelength_nm)?)
     }
 
-    /// As [`DropletFog::optics`], with a kernel for the spectrum's diameters that several fogs share: it takes most of the
+    /// As [`FogParcel::optics`], with a kernel for the spectrum's diameters that several fogs share: it takes most of the
     /// time.
     ///
     /// # Errors
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn every_amount_leads_back_to_every_other() {
-        let fog = DropletFog::new(SizeDistribution::gamma(6.0, 0.12).unwrap(), Amount::Number(1e8)).unwrap();
+        let fog = FogParcel::new(SizeDistribution::gamma(6.0, 0.12).unwrap(), Amount::Number(1e8)).unwrap();
         let amounts = [
             Amount::Number(fog.number_density_1_m3()),
             Amount::Water(fog.liquid_water_content_g_m3()),
@@ -229,7 +229,7 @@ mod tests {
             Amount::Mor(fog.mor_m()),
         ];
         for amount in amounts {
-            let again = DropletFog::new(fog.distribution().clone(), amount).unwrap();
+            let again = FogParcel::new(fog.distribution().clone(), amount).unwrap();
             assert!((again.number_density_1_m3() / 1e8 - 1.0).abs() < 1e-12, "{amount:?}");
             assert!((again.mor_m() / fog.mor_m() - 1.0).abs() < 1e-12, "{amount:?}");
         }
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn optics_fit_together() {
-        let fog = DropletFog::new(SizeDistribution::gamma(6.0, 0.12).unwrap(), Amount::Mor(200.0)).unwrap();
+        let fog = FogParcel::new(SizeDistribution::gamma(6.0, 0.12).unwrap(), Amount::Mor(200.0)).unwrap();
         let at_550 = fog.optics(550.0).unwrap();
         assert_eq!(at_550.sigma_t_1_m, fog.sigma_t_550_1_m());
         assert!(at_550.albedo > 0.99999 && at_550.q_ext >= at_550.q_sca);
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn the_model_s_fog_is_that_of_its_layer() {
         let model = AdvectionModel::arcata().unwrap();
-        let fog = DropletFog::advection(&model, 180.0, 60.0).unwrap().unwrap();
+        let fog = FogParcel::advection(&model, 180.0, 60.0).unwrap().unwrap();
         let wanted =
             model.number_density_1_m3(60.0 / 180.0, 180.0) * model.moments(60.0 / 180.0).share_in_range;
         assert!((fog.number_density_1_m3() / wanted - 1.0).abs() < 1e-12);
@@ -266,7 +266,7 @@ mod tests {
         for (height, altitude) in
             [(0.0, 0.0), (5000.0, 2.0), (180.0, 181.0), (180.0, -1.0), (180.0, f64::NAN)]
         {
-            assert!(DropletFog::advection(&model, height, altitude).is_err(), "{height} {altitude}");
+            assert!(FogParcel::advection(&model, height, altitude).is_err(), "{height} {altitude}");
         }
     }
 
@@ -274,7 +274,7 @@ mod tests {
     fn nonsense_is_refused() {
         let spectrum = SizeDistribution::gamma(6.0, 0.12).unwrap();
         for bad in [Amount::Number(0.0), Amount::Water(-0.1), Amount::SigmaT(f64::NAN), Amount::Mor(0.0)] {
-            assert!(DropletFog::new(spectrum.clone(), bad).is_err(), "{bad:?}");
+            assert!(FogParcel::new(spectrum.clone(), bad).is_err(), "{bad:?}");
         }
     }
 }

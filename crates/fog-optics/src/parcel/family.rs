@@ -1,6 +1,6 @@
 //! Spectra of one shape and any size: two amounts fix the size.
 
-use super::{Amount, DropletFog};
+use super::{Amount, FogParcel};
 use crate::error::{OpticsError, check_range};
 use crate::layer::REFERENCE_NM;
 use crate::size::{LognormalMode, SizeDistribution};
@@ -52,7 +52,7 @@ impl Family {
     ///
     /// # Errors
     /// If both amounts are of the same kind, one is out of range, or no effective radius of 0.8 to 60 µm has both.
-    pub fn fog(&self, first: Amount, second: Amount) -> Result<DropletFog, OpticsError> {
+    pub fn fog(&self, first: Amount, second: Amount) -> Result<FogParcel, OpticsError> {
         first.check()?;
         second.check()?;
         match (first, second) {
@@ -86,7 +86,7 @@ impl Family {
         &self,
         amount: Amount,
         factor: impl Fn(&SizeDistribution) -> Result<f64, OpticsError>,
-    ) -> Result<DropletFog, OpticsError> {
+    ) -> Result<FogParcel, OpticsError> {
         let [least, most] = RADIUS_RANGE_UM;
         let mut radius_um = 6.0f64;
         let mut at_bound = 0;
@@ -94,7 +94,7 @@ impl Family {
             let spectrum = self.with_effective_radius(radius_um)?;
             let factor = factor(&spectrum)?;
             if (factor - 1.0).abs() < 1e-9 {
-                return DropletFog::new(spectrum, amount);
+                return FogParcel::new(spectrum, amount);
             }
             let next = (radius_um * factor).clamp(least, most);
             at_bound = if next == least || next == most { at_bound + 1 } else { 0 };
@@ -123,7 +123,7 @@ mod tests {
             for radius in [2.0, 5.0, 11.0] {
                 let spectrum = family.with_effective_radius(radius).unwrap();
                 assert!((spectrum.effective_radius_um() / radius - 1.0).abs() < 1e-4);
-                let fog = DropletFog::new(spectrum, Amount::Number(8e7)).unwrap();
+                let fog = FogParcel::new(spectrum, Amount::Number(8e7)).unwrap();
                 let number = Amount::Number(8e7);
                 let water = Amount::Water(fog.liquid_water_content_g_m3());
                 let (sigma, mor) = (Amount::SigmaT(fog.sigma_t_550_1_m()), Amount::Mor(fog.mor_m()));
