@@ -60,6 +60,10 @@ pub struct FogSpec {
     /// Which fog, with its parameters.
     #[serde(flatten)]
     pub model: FogModel,
+    /// File of the advection model as written in the configuration, if the fog takes something from it; absent: the shipped
+    /// model. Not written where absent, so that it is no part of old digests.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coefficients: Option<PathBuf>,
     /// Where scattered light goes.
     pub phase: Phase,
     /// What the droplets add up to. Not written where it is the default, so that it is no part of old digests.

@@ -16,6 +16,7 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod fog_sources;
 mod frame;
 mod identity;
 mod load;

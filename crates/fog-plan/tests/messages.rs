@@ -22,7 +22,7 @@ fn unknown_keys() {
         errors("fog:\n  model: advection\n  heigth_m: 100\n"),
         [
             "configs/x.yaml:8:3: fog.heigth_m: unknown key; expected one of model, height_m, number_density_scale, \
-             droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, \
+             coefficients, droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, \
              single_scattering_albedo, phase, coefficient, sampling, visibility, datum_m; \
              did you mean `height_m`?"
         ]
@@ -186,6 +186,27 @@ fn optics_of_the_droplets() {
             )]
         );
     }
+}
+
+#[test]
+fn model_files_of_fogs_that_take_nothing_from_the_model() {
+    let given = "is the file of the advection model, but this fog's extinction and phase function are given";
+    for (keys, message) in [
+        ("model: homogeneous, height_m: 50, sigma_t_1_m: 0.1, phase: {hg: 0.8}", given),
+        ("model: layered, file: a.csv, phase: {jendersie_deon: {diameter_um: 9}}", given),
+        (
+            "model: droplets, height_m: 50, droplets: deirmendjian_haze_m",
+            "is the file of the advection model, which `droplets` takes only `vertical: advection` from",
+        ),
+    ] {
+        let lines = format!("fog: {{{keys}, coefficients: m.yaml}}\n");
+        let column = lines.find("m.yaml").unwrap() + 1;
+        assert_eq!(errors(&lines), [format!("configs/x.yaml:6:{column}: fog.coefficients: {message}")]);
+    }
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, coefficients: 3}\n"),
+        ["configs/x.yaml:6:53: fog.coefficients: expected text, found 3"]
+    );
 }
 
 #[test]

@@ -237,6 +237,34 @@ fn values_are_resolved() {
 }
 
 #[test]
+fn model_files_are_kept_as_written_and_absent_ones_leave_no_trace() {
+    let fogs = [
+        "{model: advection, height_m: 50}",
+        "{model: advection, height_m: 50, coefficients: a/m.yaml}",
+        "{model: homogeneous, height_m: 50, sigma_t_1_m: 0.1, coefficients: m.yaml}",
+        "{model: linear_gradient, height_m: 50, sigma_t_top_1_m: 0.1, phase: {hg: 0}, coefficients: m.yaml}",
+        "{model: layered, file: l.csv, phase: jendersie_deon, coefficients: m.yaml}",
+        "{model: droplets, height_m: 50, droplets: {file: s.csv}, number_density_1_m3: 1e8, vertical: advection, \
+         coefficients: m.yaml}",
+    ];
+    let fogs = plan(&format!("sweep: {{axes: {{fog: [{}]}}}}\n", fogs.join(", ")));
+    let fogs: Vec<_> = frames(&fogs).into_iter().map(|frame| frame.fog).collect();
+    let files = |i: usize| -> Vec<&str> { fogs[i].files().iter().filter_map(|file| file.to_str()).collect() };
+    assert_eq!(serde_json::to_value(&fogs[0]).unwrap().get("coefficients"), None);
+    assert_eq!(serde_json::to_value(&fogs[1]).unwrap()["coefficients"], "a/m.yaml");
+    assert_eq!(files(0), [""; 0]);
+    assert_eq!((files(1), files(4)), (vec!["a/m.yaml"], vec!["m.yaml", "l.csv"]));
+    assert_eq!(files(5), ["m.yaml", "s.csv"]);
+
+    // An axis may name models, and `null` for the shipped one.
+    let axis = plan("sweep: {axes: {fog.coefficients: [null, m.yaml]}}\n");
+    let axis = frames(&axis);
+    let shipped = plan("").frame(0).unwrap();
+    assert_eq!((&axis[0].digest, axis[0].seed), (&shipped.digest, shipped.seed));
+    assert!(axis[1].digest != shipped.digest && axis[1].pair_id == shipped.pair_id);
+}
+
+#[test]
 fn merge_keys_work() {
     let text = format!(
         "{BASE}sweep:\n  axes:\n    fog:\n      - &thin {{model: advection, height_m: 100}}\n      - {{<<: *thin, number_density_scale: 2}}\n"

@@ -21,6 +21,8 @@ fn ranges_and_units_are_in_the_schema() {
     assert_eq!(camera["additionalProperties"], false);
     let sensor = resolve(&schema, &properties["sensor"]);
     assert_eq!(sensor["properties"]["width_px"]["maximum"], 16384.0);
+    let coefficients = &schema["$defs"]["Fog"]["properties"]["coefficients"];
+    assert!(coefficients["description"].as_str().unwrap().contains("fog model file"), "{coefficients}");
     assert_eq!(schema["required"], serde_json::json!(["version", "name"]));
 }
 

@@ -23,6 +23,10 @@ pub(crate) struct FogFile {
     /// Factor on the droplets' number density (advection). Absent: 1.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::DENSITY_SCALE.max))]
     pub(crate) number_density_scale: Option<f64>,
+    /// Path of a fog model file (YAML, as `fogbank fit` writes it), relative to the current folder: the advection model,
+    /// wherever the fog takes something from it. Absent: the shipped model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) coefficients: Option<String>,
     /// The spectrum of the droplets (droplets): a name, or one of {gamma: …}, {modified_gamma: …}, {lognormals: …},
     /// {file: …}.
     pub(crate) droplets: Option<DropletsFile>,
@@ -69,6 +73,7 @@ impl Default for FogFile {
             model: None,
             height_m: None,
             number_density_scale: None,
+            coefficients: None,
             droplets: None,
             number_density_1_m3: None,
             vertical: None,

@@ -32,6 +32,7 @@ impl Check<'_> {
             OrNone::None(_) => {
                 return Some(FogSpec {
                     model: FogModel::None,
+                    coefficients: None,
                     phase: Phase::Mie,
                     coefficient: Coefficient::default(),
                     sampling: Sampling::default(),
@@ -51,14 +52,24 @@ impl Check<'_> {
         let name = self.required("fog.model", fog.model, why)?;
         self.foreign_keys(fog, name);
         let model = self.model(fog, name);
-        Some(FogSpec {
+        let spec = FogSpec {
             model: model?,
+            coefficients: fog.coefficients.as_ref().map(Into::into),
             phase: phase?,
             coefficient: coefficient?,
             sampling: sampling?,
             visibility: visibility?,
             datum_m: datum_m?,
-        })
+        };
+        if spec.coefficients.is_some() && !spec.takes_advection_model() {
+            let message = match name {
+                Droplets => "is the file of the advection model, which `droplets` takes only `vertical: advection` from",
+                _ => "is the file of the advection model, but this fog's extinction and phase function are given",
+            };
+            self.problem("fog.coefficients", message);
+            return None;
+        }
+        Some(spec)
     }
 
     fn phase(&mut self, phase: PhaseFile) -> Option<Phase> {
