@@ -51,5 +51,5 @@ pub use marker::{FileEntry, Marker};
 pub use outputs::OutputSet;
 pub use picture_file::{read_picture, write_png};
 pub use plan::PlanFrame;
-pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan};
+pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan, read_record};
 pub use verify::{Problem, Report, verify};

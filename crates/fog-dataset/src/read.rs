@@ -25,10 +25,7 @@ pub struct StoredFrame {
 /// [`Error::BadId`], [`Error::Io`] when the record or a present file cannot be read, [`Error::Damaged`] or
 /// [`Error::Picture`] when it does not parse.
 pub fn read_frame(dir: &Path, id: &str) -> Result<StoredFrame> {
-    check_id(id)?;
-    let path = dir.join(Kind::Record.file(id));
-    let text = fs::read(&path).map_err(Error::io("read", &path))?;
-    let record = serde_json::from_slice(&text).map_err(Error::damaged(&path))?;
+    let record = read_record(dir, id)?;
     let mut channels = BTreeMap::new();
     for kind in [Kind::Hdr, Kind::Truth] {
         match read_exr_channels(&dir.join(kind.file(id))) {
@@ -38,6 +35,17 @@ pub fn read_frame(dir: &Path, id: &str) -> Result<StoredFrame> {
         }
     }
     Ok(StoredFrame { channels, record })
+}
+
+/// Reads `<id>.json` of one frame.
+///
+/// # Errors
+/// [`Error::BadId`], [`Error::Io`] when it cannot be read, [`Error::Damaged`] when it does not parse.
+pub fn read_record(dir: &Path, id: &str) -> Result<Value> {
+    check_id(id)?;
+    let path = dir.join(Kind::Record.file(id));
+    let text = fs::read(&path).map_err(Error::io("read", &path))?;
+    serde_json::from_slice(&text).map_err(Error::damaged(&path))
 }
 
 /// Where the picture of a frame is: its linear radiance if that is an output, else its sRGB picture; `None` when it has

@@ -3,7 +3,6 @@
 use crate::advection::AdvectionModel;
 use crate::error::OpticsError;
 use crate::mie::MieSeries;
-use crate::table::Fingerprint;
 use crate::water;
 use fog_core::math::PI;
 use fog_core::math::f64::{asin, cos};
@@ -64,18 +63,6 @@ pub fn diameter_table(d_um: f64, wavelength_nm: f64) -> Result<OpticsTable, Opti
         g: vec![q.g],
         phase,
     })?)
-}
-
-/// Everything that [`mean_diameter_table`] depends on, as bytes to be hashed for the name of a cached file.
-#[must_use]
-pub fn mean_diameter_fingerprint_bytes(model: &AdvectionModel, wavelength_nm: f64) -> Vec<u8> {
-    let mut fingerprint = Fingerprint::new("mean diameter table");
-    fingerprint.numbers(&[wavelength_nm]);
-    fingerprint.numbers(&model.diameters().bounds_um());
-    for coefficients in model.shape_coefficients() {
-        fingerprint.numbers(coefficients);
-    }
-    fingerprint.bytes
 }
 
 #[cfg(test)]

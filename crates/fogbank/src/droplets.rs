@@ -1,40 +1,37 @@
 //! Droplets of a specification: spectra, vertical profiles and the files that they may come from.
 
 use crate::error::Error;
-use fog_core::optics_table::OpticsTable;
-use fog_optics::advection::AdvectionModel;
+use crate::resources::Resources;
+use crate::sources::DropletSource;
+use crate::text_files::TextFiles;
 use fog_optics::catalogue;
 use fog_optics::droplets::{DropletLayer, Spectra};
 use fog_optics::size::{LognormalMode, ModifiedGamma, SizeDistribution};
 use fog_optics::spectrum_csv::parse_spectrum;
 use fog_optics::vertical::VerticalProfile;
-use fog_plan::{DropletsSpec, VerticalSpec};
+use fog_plan::{DropletsSpec, FogSpec, VerticalSpec};
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Number density in 1/m³ of a fog whose number only a visibility fixes: 100 per cm³, before it is scaled.
 const ANY_NUMBER_1_M3: f64 = 1e8;
 
-/// A spectrum of a configuration, with its optics table.
+/// A spectrum of a configuration.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectrum {
-    pub(crate) distribution: SizeDistribution,
+    pub(crate) droplets: DropletSource,
+    distribution: SizeDistribution,
     /// Number of droplets that comes with the spectrum, in 1/m³.
     pub(crate) number_density_1_m3: Option<f64>,
     /// Where it comes from.
     source: String,
-    pub(crate) table: OpticsTable,
 }
 
 impl Spectrum {
-    /// Reads the spectrum of a specification; `table` is asked for its table.
-    pub(crate) fn new(
-        spec: &DropletsSpec,
-        table: impl FnOnce(&Spectra) -> Result<OpticsTable, Error>,
-    ) -> Result<Self, Error> {
-        let (distribution, number_density_1_m3, source) = read(spec)?;
-        let table = table(&Spectra::Same(distribution.clone()))?;
-        Ok(Self { distribution, number_density_1_m3, source, table })
+    /// Reads the spectrum of a specification; `name` is what progress calls it.
+    pub(crate) fn new(spec: &DropletsSpec, name: String, files: &TextFiles) -> Result<Self, Error> {
+        let (distribution, number_density_1_m3, source) = read(spec, files)?;
+        let droplets = DropletSource::new(name, Spectra::Same(distribution.clone()));
+        Ok(Self { droplets, distribution, number_density_1_m3, source })
     }
 
     /// What a record says about the spectrum.
@@ -51,7 +48,10 @@ impl Spectrum {
     }
 }
 
-fn read(spec: &DropletsSpec) -> Result<(SizeDistribution, Option<f64>, String), Error> {
+fn read(
+    spec: &DropletsSpec,
+    files: &TextFiles,
+) -> Result<(SizeDistribution, Option<f64>, String), Error> {
     Ok(match spec {
         DropletsSpec::Gamma { effective_radius_um, effective_variance } => {
             let distribution = SizeDistribution::gamma(*effective_radius_um, *effective_variance)?;
@@ -73,7 +73,7 @@ fn read(spec: &DropletsSpec) -> Result<(SizeDistribution, Option<f64>, String), 
             (SizeDistribution::lognormals(&modes)?, None, "sum of lognormals".to_owned())
         }
         DropletsSpec::File(file) => {
-            let spectrum = parse_spectrum(&text(file)?, &file.display().to_string())?;
+            let spectrum = parse_spectrum(files.text(file)?, &file.display().to_string())?;
             (spectrum.distribution, spectrum.number_density_1_m3, file.display().to_string())
         }
         DropletsSpec::Named(name) => {
@@ -83,17 +83,17 @@ fn read(spec: &DropletsSpec) -> Result<(SizeDistribution, Option<f64>, String), 
     })
 }
 
-/// The fog of a layer: a spectrum, its number, and where the droplets are. `number_density_1_m3` is the specification's;
-/// `scaled_later` says that a visibility will fix the number.
+/// The fog of a layer: a spectrum, its number (the specification's), and where the droplets are.
 pub(crate) fn fog(
+    spec: &FogSpec,
     spectrum: &Spectrum,
     number_density_1_m3: Option<f64>,
-    scaled_later: bool,
     vertical: &VerticalSpec,
     height_m: f64,
-    model: &AdvectionModel,
+    resources: &Resources,
 ) -> Result<DropletLayer, Error> {
-    let any = scaled_later.then_some(ANY_NUMBER_1_M3);
+    // A visibility will fix the number.
+    let any = spec.visibility.map(|_| ANY_NUMBER_1_M3);
     let number = number_density_1_m3.or(spectrum.number_density_1_m3).or(any).ok_or_else(|| {
         let source = &spectrum.source;
         Error::Fog(format!(
@@ -103,18 +103,16 @@ pub(crate) fn fog(
     })?;
     let profile = match vertical {
         VerticalSpec::Uniform => VerticalProfile::uniform(),
-        VerticalSpec::Advection => VerticalProfile::advection(model, height_m)?.0,
+        VerticalSpec::Advection => VerticalProfile::advection(resources.model(spec)?, height_m)?.0,
         VerticalSpec::Thinning(exponent) => VerticalProfile::thinning(*exponent)?,
         VerticalSpec::Rows(rows) => {
             VerticalProfile::rows(&rows.iter().map(|[zeta, n]| (*zeta, *n)).collect::<Vec<_>>())?
         }
-        VerticalSpec::File(file) => VerticalProfile::from_csv(&text(file)?, &file.display().to_string())?,
+        VerticalSpec::File(file) => {
+            VerticalProfile::from_csv(resources.files().text(file)?, &file.display().to_string())?
+        },
     };
     Ok(DropletLayer::new(Spectra::Same(spectrum.distribution.clone()), profile, number, height_m)?)
-}
-
-fn text(file: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(file).map_err(|source| Error::Read { path: file.to_owned(), source })
 }
 
 #[cfg(test)]

@@ -38,6 +38,19 @@ pub enum Error {
         /// Why not.
         reason: String,
     },
+    /// A file that fogs are read from is another than when the data set was begun.
+    #[error(
+        "{} holds frames made from another content of {file} (such as {frame}); use another folder or the old file",
+        dir.display()
+    )]
+    FileChanged {
+        /// Folder of the data set.
+        dir: PathBuf,
+        /// The file, as written in the configuration.
+        file: String,
+        /// A frame that was made from the old content.
+        frame: String,
+    },
     /// A pixel came out infinite or not a number.
     #[error(transparent)]
     Frame(#[from] fog_film::FrameError),

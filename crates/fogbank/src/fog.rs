@@ -12,6 +12,7 @@ use fog_optics::{coefficient, layer_csv};
 use fog_plan::{Coefficient, FogModel, FogSpec};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// A frame's fog: the medium that is traced, and what it is made of.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub struct Fog {
     phase_record: Value,
     /// Where the extinction comes from droplets.
     coefficient: Option<Coefficient>,
+    /// Hashes of the files that it was read from.
+    files: BTreeMap<String, String>,
     datum_m: f64,
 }
 
@@ -40,7 +43,7 @@ impl Fog {
     /// Fog of a specification; `None` for clear air.
     ///
     /// # Errors
-    /// If a layer file cannot be read or is wrong, or the visibility cannot be met.
+    /// If a file of the fog cannot be read or is wrong, or the visibility cannot be met.
     pub fn new(spec: &FogSpec, resources: &Resources) -> Result<Option<Self>, Error> {
         let Some((mut layer, mut droplets)) = layer_of(spec, resources)? else { return Ok(None) };
         if let Some(wanted) = spec.visibility {
@@ -50,17 +53,21 @@ impl Fog {
                 droplets.fog = droplets.fog.clone().scaled(factor)?;
             }
         }
-        let spectrum = droplets.as_ref().and_then(|d| d.spectrum.as_ref());
-        let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, spectrum, resources)?;
+        let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, resources)?;
         let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
         let coefficient = from_droplets(&spec.model).then_some(spec.coefficient);
+        let files = resources.files().hashes(spec.files());
         let datum_m = spec.datum_m;
-        Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, datum_m }))
+        Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, files, datum_m }))
     }
 
-    /// Phase function and scattering coefficient as they are recorded.
-    pub(crate) fn optics_json(&self) -> [(&'static str, Value); 2] {
-        [("phase", self.phase_record.clone()), ("coefficient", json!(self.coefficient))]
+    /// Phase function, scattering coefficient, and BLAKE3 hashes of the fog's files by their paths, as they are recorded.
+    pub(crate) fn optics_json(&self) -> [(&'static str, Value); 3] {
+        [
+            ("phase", self.phase_record.clone()),
+            ("coefficient", json!(self.coefficient)),
+            ("files", json!(self.files)),
+        ]
     }
 
     /// Altitude over the fog's datum of world height `y`, in metres.
@@ -141,22 +148,21 @@ fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, O
     };
     // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
     let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        layer_from(resources.polydisperse()?, &DropletLayer::advection(&resources.model, height_m)?)
+        layer_from(resources.mixture(spec)?, &DropletLayer::advection(resources.model(spec)?, height_m)?)
     };
     let layer = match &spec.model {
         FogModel::None => return Ok(None),
         FogModel::Advection { height_m, number_density_scale } => {
-            let fog = DropletLayer::advection(&resources.model, *height_m)?.scaled(*number_density_scale)?;
-            let table = resources.polydisperse()?.clone();
+            let model = resources.model(spec)?;
+            let fog = DropletLayer::advection(model, *height_m)?.scaled(*number_density_scale)?;
+            let table = resources.mixture(spec)?.clone();
             return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum: None }))));
         }
         FogModel::Droplets { height_m, droplets, number_density_1_m3, vertical } => {
             let spectrum = resources.spectrum(droplets)?;
-            let scaled_later = spec.visibility.is_some();
-            let model = &resources.model;
-            let fog =
-                droplets::fog(spectrum, *number_density_1_m3, scaled_later, vertical, *height_m, model)?;
-            let (table, spectrum) = (spectrum.table.clone(), Some(spectrum.clone()));
+            let number = *number_density_1_m3;
+            let fog = droplets::fog(spec, spectrum, number, vertical, *height_m, resources)?;
+            let (table, spectrum) = (resources.mixture(spec)?.clone(), Some(spectrum.clone()));
             return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum }))));
         }
         FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
@@ -180,9 +186,7 @@ fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, O
             layer::linear_gradient(*height_m, base, top, *single_scattering_albedo)?
         }
         FogModel::Layered { file, single_scattering_albedo } => {
-            let text =
-                std::fs::read_to_string(file).map_err(|source| Error::Read { path: file.clone(), source })?;
-            let rows = layer_csv::parse_layers(&text, &file.display().to_string())?;
+            let rows = layer_csv::parse_layers(resources.files().text(file)?, &file.display().to_string())?;
             layer::layered(&rows, *single_scattering_albedo)?
         }
     };

@@ -3,19 +3,21 @@
 //! The main path, top to bottom:
 //!
 //! 1. [`plan`] reads a configuration into a [`Plan`](fog_plan::Plan) of frames (`fog-plan`);
-//! 2. [`Resources`] builds or maps the optics tables (`fog-optics`, [`TableCache`]) and loads the scenes (`fog-scene`);
+//! 2. [`Resources`] reads fog models, builds or maps the optics tables (`fog-optics`, [`TableCache`]) and loads the scenes
+//!    (`fog-scene`);
 //! 3. [`render_frame`] puts a frame's scene, fog and lights together and traces it (`fog-tracer`) onto films (`fog-film`);
 //! 4. [`sweep`] does so for every frame that is missing and stores it with its record (`fog-dataset`).
 //!
 //! ```no_run
 //! use fogbank::{Resources, Selection, Silent, TableCache};
 //! let plan = fogbank::plan::load("configs/quickstart.yaml".as_ref(), &[])?;
-//! let mut resources = Resources::new(TableCache::new("tables/cache"))?;
+//! let mut resources = Resources::new(TableCache::new("tables/cache"));
 //! let counts = fogbank::sweep(&plan, &Selection::All, "out".as_ref(), &mut resources, &Silent)?;
 //! assert_eq!(counts.failed, 0);
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod changed_files;
 mod compare;
 mod droplets;
 mod error;
@@ -26,8 +28,11 @@ mod phase;
 mod progress;
 mod record;
 mod resources;
+mod sources;
 mod sweep;
 mod table_cache;
+mod tables;
+mod text_files;
 
 pub use compare::{
     Compared, FramePair, LeftOut, MatchedFrames, Matching, Means, compare_pictures, match_frames,
@@ -43,6 +48,7 @@ pub use fog_scene::generate;
 pub use frame::{Rendered, camera, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
 pub use resources::Resources;
+pub use sources::load_model;
 pub use sweep::{Selection, output_set, path_count, sweep};
 pub use table_cache::{Stored, TableCache, TableOrigin};
 

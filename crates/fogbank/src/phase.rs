@@ -1,13 +1,12 @@
 //! The phase function of a fog: what its key in the configuration means, and how it is recorded.
 
-use crate::droplets::Spectrum;
 use crate::error::Error;
 use crate::resources::Resources;
 use fog_core::phase::HenyeyGreenstein;
 use fog_optics::error::OpticsError;
 use fog_optics::layer::FogLayer;
 use fog_optics::mean_cosine::layer_mean_cosine;
-use fog_optics::mean_diameter::{self, diameter_table, layer_mean_diameter_um};
+use fog_optics::mean_diameter;
 use fog_optics::{jendersie_deon, layer};
 use fog_plan::{FogSpec, MeanCosine, Phase, Sampling};
 use serde_json::{Value, json};
@@ -23,22 +22,12 @@ pub(crate) struct FogPhase {
 }
 
 impl FogPhase {
-    /// The phase function that `spec` asks for in `layer`, whose droplets are those of `spectrum`, or the advection model's.
+    /// The phase function that `spec` asks for in `layer`.
     ///
     /// # Errors
-    /// If a table was not prepared, or the droplets are too large for the closed form.
-    pub(crate) fn new(
-        spec: &FogSpec,
-        layer: &FogLayer,
-        spectrum: Option<&Spectrum>,
-        resources: &Resources,
-    ) -> Result<Self, Error> {
+    /// If its droplets or tables cannot be had, or the droplets are too large for the closed form.
+    pub(crate) fn new(spec: &FogSpec, layer: &FogLayer, resources: &Resources) -> Result<Self, Error> {
         use fog_scene::phase::Phase as Traced;
-        let table = || spectrum.map_or_else(|| resources.polydisperse(), |s| Ok(&s.table));
-        let mean_diameter_um = || match spectrum {
-            Some(spectrum) => spectrum.distribution.mean_diameter_um(),
-            None => layer_mean_diameter_um(&resources.model),
-        };
         Ok(match spec.phase {
             Phase::Hg(MeanCosine::Value(g)) => Self {
                 phase: Traced::HenyeyGreenstein(henyey_greenstein(g)?),
@@ -46,7 +35,7 @@ impl FogPhase {
                 record: json!({"kind": "henyey_greenstein", "g": g}),
             },
             Phase::Hg(MeanCosine::Layer) => {
-                let g = layer_mean_cosine(layer, table()?);
+                let g = layer_mean_cosine(layer, resources.mixture(spec)?);
                 Self {
                     phase: Traced::HenyeyGreenstein(henyey_greenstein(g)?),
                     g: Some(g),
@@ -60,20 +49,17 @@ impl FogPhase {
             }
             Phase::Mie => {
                 let phase = match spec.sampling {
-                    Sampling::Table => Traced::Table(table()?.clone()),
+                    Sampling::Table => Traced::Table(resources.mixture(spec)?.clone()),
                     Sampling::Diameter => {
-                        let (table, choice) = resources.single(&spec.model)?.clone();
+                        let (table, choice) = resources.single(spec)?.clone();
                         Traced::Droplets { table, choice }
                     }
                 };
                 Self { phase, g: None, record: json!({"kind": "mie", "sampling": spec.sampling}) }
             }
             Phase::MieMeanDiameter => {
-                let d = mean_diameter_um();
-                let table = match spectrum {
-                    Some(_) => diameter_table(d, mean_diameter::WAVELENGTH_NM)?,
-                    None => resources.mean_diameter()?.clone(),
-                };
+                let d = resources.droplets(spec)?.mean_diameter_um;
+                let table = resources.mean_droplet(spec)?.clone();
                 let g = table.view().g[0];
                 Self {
                     phase: Traced::Table(table),
@@ -87,7 +73,10 @@ impl FogPhase {
                 }
             }
             Phase::JendersieDeon { diameter_um } => {
-                let d = diameter_um.unwrap_or_else(mean_diameter_um);
+                let d = match diameter_um {
+                    Some(d) => d,
+                    None => resources.droplets(spec)?.mean_diameter_um,
+                };
                 let (p, mixture) = (jendersie_deon::parameters(d)?, jendersie_deon::phase_function(d)?);
                 let g = mixture.mean_cosine();
                 Self {

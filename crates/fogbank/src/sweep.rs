@@ -4,9 +4,9 @@ use crate::error::Error;
 use crate::frame::{Rendered, render_frame};
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
-use crate::{CODE_DIGEST, frame};
+use crate::{CODE_DIGEST, changed_files, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
-use fog_plan::{FogModel, FrameSpec, Plan, VerticalSpec};
+use fog_plan::{FrameSpec, Plan};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -50,8 +50,8 @@ impl Selection {
 /// A frame that fails is recorded with its reason and the others go on: look at the returned counts.
 ///
 /// # Errors
-/// If nothing can be rendered at all (scene, fog, optics table), if `dir` cannot be used or holds another data set, or if
-/// `progress` asked to stop.
+/// If nothing can be rendered at all (scene, fog, optics table), if `dir` cannot be used, holds another data set or frames
+/// made from other contents of the fogs' files, or if `progress` asked to stop.
 pub fn sweep(
     plan: &Plan,
     selection: &Selection,
@@ -63,9 +63,9 @@ pub fn sweep(
     let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
     let selected = selection.indices(&frames)?;
     for &i in &selected {
-        resources.prepare(&frames[i], progress)?;
+        resources.prepare(&frames[i], progress);
     }
-    warn_of_extrapolation(&selected, &frames, resources, progress);
+    warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     // If not one of them can be put together, that is the configuration's fault and not a frame's.
     let mut refused = None;
     for &i in &selected {
@@ -83,6 +83,7 @@ pub fn sweep(
 
     // 2. The data set: new, or the same one begun earlier.
     let data_set = open(plan, &frames, dir)?;
+    changed_files::refuse(&data_set, &frames, resources)?;
     let todo: Vec<&FrameSpec> =
         selected.iter().map(|&i| &frames[i]).filter(|f| !data_set.is_done(&f.id)).collect();
     let paths = todo.iter().map(|f| path_count(f)).sum();
@@ -120,31 +121,27 @@ pub fn sweep(
     Ok(counts)
 }
 
-/// Says once for which fog heights the model goes beyond what was measured.
-fn warn_of_extrapolation(
-    selected: &[usize],
-    frames: &[FrameSpec],
+/// Says once for which fog heights a model goes beyond what was measured.
+fn warn_of_extrapolation<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
     resources: &Resources,
     progress: &dyn Progress,
 ) {
-    let mut heights: Vec<f64> = selected
-        .iter()
-        .filter_map(|&i| match frames[i].fog.model {
-            FogModel::Advection { height_m, .. }
-            | FogModel::Droplets { height_m, vertical: VerticalSpec::Advection, .. }
-                if resources.model.extrapolates(height_m) =>
-            {
-                Some(height_m)
-            }
-            _ => None,
-        })
-        .collect();
-    heights.sort_by(f64::total_cmp);
-    heights.dedup();
-    if !heights.is_empty() {
-        let measured = resources.model.measured_heights_m();
+    let mut by_model: BTreeMap<Option<&Path>, (Vec<f64>, &[f64])> = BTreeMap::new();
+    for fog in frames.map(|frame| &frame.fog) {
+        if let (Some(height_m), Ok(model)) = (fog.model.advection_height_m(), resources.model(fog))
+            && model.extrapolates(height_m)
+        {
+            let entry = by_model.entry(fog.coefficients.as_deref());
+            entry.or_insert((Vec::new(), model.measured_heights_m())).0.push(height_m);
+        }
+    }
+    for (file, (mut heights, measured)) in by_model {
+        heights.sort_by(f64::total_cmp);
+        heights.dedup();
+        let of_file = file.map_or_else(String::new, |file| format!(" of {}", file.display()));
         progress.event(Event::Warning(format!(
-            "advection fog of {heights:?} m is an extrapolation: the model was fitted to layers of {measured:?} m"
+            "advection fog of {heights:?} m is an extrapolation: the model{of_file} was fitted to layers of {measured:?} m"
         )));
     }
 }

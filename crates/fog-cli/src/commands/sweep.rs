@@ -22,7 +22,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
 /// Renders the selected frames; exit code 1 if one of the selected frames failed.
 pub(crate) fn render(plan: &Plan, selection: &Selection, work: &WorkArgs) -> Result<ExitCode> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(work)).build()?;
-    let mut resources = Resources::new(TableCache::new(cache_dir(work)?))?;
+    let mut resources = Resources::new(TableCache::new(cache_dir(work)?));
     let reporter = Reporter::new(work.quiet);
     let result = pool.install(|| fogbank::sweep(plan, selection, &work.out, &mut resources, &reporter));
     reporter.close();

@@ -7,7 +7,8 @@ use crate::water;
 use fog_core::math::PI;
 use rayon::prelude::*;
 
-/// Means over the droplets of a spectrum, per droplet (not renormalised over the range of diameters).
+/// Means over the droplets of a spectrum, per droplet (not renormalised over the range of diameters). Backscatter is not
+/// among them: its resonances need finer steps ([`crate::lidar::BackscatterKernel`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanOptics {
     /// Extinction cross section in m².
@@ -16,9 +17,6 @@ pub struct MeanOptics {
     pub c_sca_m2: f64,
     /// Mean cosine of the scattering angle.
     pub g: f64,
-    /// Differential cross section at 180° in m²/sr, unpolarised: times N it is the lidar's backscatter coefficient in
-    /// 1/(m sr), and c_ext over it the lidar ratio in sr.
-    pub c_back_m2_sr: f64,
 }
 
 /// Cross sections of one droplet.
@@ -27,7 +25,6 @@ struct Droplet {
     ext: f64,
     sca: f64,
     sca_cosine: f64,
-    back: f64,
 }
 
 impl SizeDistribution {
@@ -49,7 +46,6 @@ impl SizeDistribution {
             c_ext_m2: sum(|d| d.ext),
             c_sca_m2,
             g: sum(|d| d.sca_cosine) / c_sca_m2,
-            c_back_m2_sr: sum(|d| d.back),
         })
     }
 
@@ -74,9 +70,7 @@ impl SizeDistribution {
                 let q = MieSeries::new(m, PI * d_um * 1e3 / wavelength_nm)?.efficiencies();
                 let area_m2 = 0.25 * PI * d_um * d_um * 1e-12;
                 let sca = q.q_sca * area_m2;
-                // |S1(180°)|²/k² = Q_back d²/16 in the convention of `Efficiencies`.
-                let back = q.q_back * area_m2 / (4.0 * PI);
-                Ok(Droplet { ext: q.q_ext * area_m2, sca, sca_cosine: sca * q.g, back })
+                Ok(Droplet { ext: q.q_ext * area_m2, sca, sca_cosine: sca * q.g })
             })
             .collect()
     }
