@@ -48,10 +48,7 @@ impl Spectrum {
     }
 }
 
-fn read(
-    spec: &DropletsSpec,
-    files: &TextFiles,
-) -> Result<(SizeDistribution, Option<f64>, String), Error> {
+fn read(spec: &DropletsSpec, files: &TextFiles) -> Result<(SizeDistribution, Option<f64>, String), Error> {
     Ok(match spec {
         DropletsSpec::Gamma { effective_radius_um, effective_variance } => {
             let distribution = SizeDistribution::gamma(*effective_radius_um, *effective_variance)?;
@@ -110,7 +107,7 @@ pub(crate) fn fog(
         }
         VerticalSpec::File(file) => {
             VerticalProfile::from_csv(resources.files().text(file)?, &file.display().to_string())?
-        },
+        }
     };
     Ok(DropletLayer::new(Spectra::Same(spectrum.distribution.clone()), profile, number, height_m)?)
 }

@@ -61,9 +61,7 @@ impl Model {
     fn new(file: Option<&Path>, files: &TextFiles) -> Result<Self, Error> {
         let (model, name) = match file {
             None => (AdvectionModel::arcata()?, "polydisperse Mie".to_owned()),
-            Some(file) => {
-                (parse(files.text(file)?, file)?, format!("polydisperse Mie, {}", file.display()))
-            }
+            Some(file) => (parse(files.text(file)?, file)?, format!("polydisperse Mie, {}", file.display())),
         };
         let droplets = DropletSource::new(name, Spectra::Advection(model.clone()));
         Ok(Self { model, droplets })

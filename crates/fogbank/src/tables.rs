@@ -7,10 +7,10 @@ use crate::table_cache::TableCache;
 use fog_core::diameter_choice::DiameterChoice;
 use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::OpticsTable;
+use fog_optics::droplet_table;
 use fog_optics::droplets::Spectra;
 use fog_optics::mean_diameter::{self, diameter_table};
 use fog_optics::table::{self, TableSettings};
-use fog_optics::droplet_table;
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -86,11 +86,7 @@ impl Tables {
         found(self.singles.get(&droplets.fingerprint), "droplet table")
     }
 
-    fn open_mixture(
-        &self,
-        droplets: &DropletSource,
-        progress: &dyn Progress,
-    ) -> Result<OpticsTable, Error> {
+    fn open_mixture(&self, droplets: &DropletSource, progress: &dyn Progress) -> Result<OpticsTable, Error> {
         let spectra = &droplets.spectra;
         let settings = TableSettings::visible_of(spectra);
         let file = match spectra {

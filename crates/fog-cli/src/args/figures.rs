@@ -9,7 +9,7 @@ Examples:
   fogbank figures --out figures                          every figure of the shipped model, with its data
   fogbank figures --out figures --only fig9 --only fig11 visibility by day and of lights at night
   fogbank figures --out figures --height 120 --only profiles --format svg,csv
-  fogbank figures --out figures --model my_fog.yaml      a model of `fogbank fit`, or your own
+  fogbank figures --out figures --coefficients my_fog.yaml   a model of `fogbank fit`, or your own
 
 Figures:
   fig3         a droplet spectrum and its two parts          fig9         visibility of objects by day (Koschmieder)
@@ -29,9 +29,10 @@ pub(crate) struct FiguresArgs {
     /// Folder for the figures, one file per figure and format; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Fog model, of the form of tables/advection/arcata.yaml [default: that file].
-    #[arg(long, value_name = "MODEL.yaml")]
-    pub(crate) model: Option<PathBuf>,
+    /// Coefficients of the fog model: a file of `fogbank fit`, or your own of the form of tables/advection/arcata.yaml
+    /// [default: that file].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) coefficients: Option<PathBuf>,
     /// Fog height in m, 1 to 2000; may be repeated.
     #[arg(long = "height", value_name = "M", value_delimiter = ',', default_values_t = fogbank::figures::PAPER_HEIGHTS_M)]
     pub(crate) heights: Vec<f64>,

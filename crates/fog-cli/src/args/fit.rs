@@ -14,7 +14,8 @@ The name of the column of values says what they are, exactly one of:
 sample_volume_m3 gives the counting noise. Rows of the same place and bin (several approaches)
 are merged. A bin without a row is a gap, not a zero. Lines that begin with # are comments.
 
-MODEL.yaml has the form of tables/advection/arcata.yaml.
+MODEL.yaml has the form of tables/advection/arcata.yaml: `coefficients: MODEL.yaml` in the fog of a
+configuration and --coefficients MODEL.yaml of other commands use it.
 DIR gets report.md, its figures as SVG and PNG, and the numbers in fits.csv, parameters.csv and spectra.csv.
 
 Examples:
@@ -63,9 +64,10 @@ pub(crate) struct SyntheticArgs {
     /// File to write (CSV).
     #[arg(long, value_name = "DATA.csv")]
     pub(crate) out: PathBuf,
-    /// Fog model to fly through: `arcata`, the shipped one, or a model file.
-    #[arg(long, value_name = "MODEL", default_value = "arcata")]
-    pub(crate) model: String,
+    /// Coefficients of the fog model to fly through: a file of `fogbank fit`, or your own of the form of
+    /// tables/advection/arcata.yaml [default: that file].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) coefficients: Option<PathBuf>,
     /// Fog heights in m.
     #[arg(long, value_name = "H,H,...", value_delimiter = ',', default_value = "100,180,260")]
     pub(crate) heights_m: Vec<f64>,

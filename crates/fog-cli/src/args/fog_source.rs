@@ -2,6 +2,7 @@
 
 use super::number::number;
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 
 /// Fog models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -17,7 +18,11 @@ pub(crate) struct FogSourceArgs {
     /// Fog model; needs --height.
     #[arg(long, value_enum, requires = "height", conflicts_with_all = ["distribution", "number", "lwc", "sigma"])]
     pub(crate) model: Option<Model>,
-    /// Height of the fog layer in m; the model is measured from 100 to 260 m.
+    /// Coefficients of the fog model: a file of `fogbank fit`, or your own of the form of tables/advection/arcata.yaml
+    /// [default: that file].
+    #[arg(long, value_name = "FILE", requires = "model")]
+    pub(crate) coefficients: Option<PathBuf>,
+    /// Height of the fog layer in m; the shipped model is measured from 100 to 260 m.
     #[arg(long, value_name = "M", value_parser = number, allow_negative_numbers = true)]
     pub(crate) height: Option<f64>,
     /// Altitudes in m over the fog's base.

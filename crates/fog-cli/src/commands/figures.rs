@@ -4,7 +4,6 @@ use crate::args::{FigureFormat, FiguresArgs};
 use crate::print;
 use anyhow::{Context, Result};
 use fogbank::figures::{Figure, NAMES, Sources};
-use fogbank::optics::advection::{ARCATA, AdvectionModel};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::Path;
@@ -12,7 +11,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode> {
-    let model = model(args.model.as_deref())?;
+    let model = fogbank::load_model(args.coefficients.as_deref())?;
     let sources = Sources::new(&model, &args.heights)?;
     let names: Vec<&str> =
         (NAMES.into_iter()).filter(|n| args.only.is_empty() || args.only.iter().any(|o| o == n)).collect();
@@ -32,10 +31,11 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode> {
         bar.set_message(name);
         let started = Instant::now();
         let figure = sources.draw(name)?;
-        let mut formats = args.format.clone();
-        formats.dedup();
-        for &format in &formats {
-            write(&figure, format, &args.out)?;
+        // Each format once, in the order given.
+        for (i, &format) in args.format.iter().enumerate() {
+            if !args.format[..i].contains(&format) {
+                write(&figure, format, &args.out)?;
+            }
         }
         let seconds = started.elapsed().as_secs_f64();
         bar.inc(1);
@@ -54,13 +54,6 @@ fn bar(figures: u64, quiet: bool) -> ProgressBar {
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
-}
-
-/// The model in a file, or the shipped one.
-fn model(file: Option<&Path>) -> Result<AdvectionModel> {
-    let Some(file) = file else { return Ok(AdvectionModel::from_yaml(ARCATA)?) };
-    let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
-    AdvectionModel::from_yaml(&text).with_context(|| file.display().to_string())
 }
 
 /// Writes one form of a figure into a folder, under the figure's name.

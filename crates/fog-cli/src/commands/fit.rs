@@ -5,7 +5,6 @@ use crate::args::{FigureFormat, FitArgs, FitCommand, SyntheticArgs};
 use crate::print;
 use anyhow::{Context, Result, bail, ensure};
 use fogbank::figures::fit_report;
-use fogbank::optics::advection::AdvectionModel;
 use fogbank::optics::fit::{self, Fit, FitSettings, synthetic};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
@@ -71,10 +70,9 @@ fn write_report(found: &Fit, dir: &Path) -> Result<()> {
 }
 
 fn write_synthetic(args: &SyntheticArgs) -> Result<ExitCode> {
-    let model = match args.model.as_str() {
-        "arcata" => AdvectionModel::arcata()?,
-        path => AdvectionModel::from_yaml(&read(path.as_ref())?).with_context(|| path.to_owned())?,
-    };
+    let model = fogbank::load_model(args.coefficients.as_deref())?;
+    let name =
+        args.coefficients.as_ref().map_or_else(|| "arcata".to_owned(), |file| file.display().to_string());
     let defaults = synthetic::FlightSettings::arcata();
     let [low, high, width] = args.bins_um[..] else { bail!("--bins needs LOW,HIGH,WIDTH") };
     let bins = ((high - low) / width).round();
@@ -91,7 +89,7 @@ fn write_synthetic(args: &SyntheticArgs) -> Result<ExitCode> {
         approaches: args.approaches,
         seed: args.seed,
     };
-    let text = synthetic::csv(&model, &settings, &args.model)?;
+    let text = synthetic::csv(&model, &settings, &name)?;
     write(&args.out, &text)?;
     let rows = text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())).count();
     print::news(format_args!("{}: {rows} rows of counts", args.out.display()));

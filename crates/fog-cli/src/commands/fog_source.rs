@@ -16,6 +16,8 @@ pub(super) enum FogSource {
     /// The model's layer.
     Advection {
         model: AdvectionModel,
+        /// Where the model comes from.
+        source: String,
         height_m: f64,
         /// Meteorological optical range that is to be met at the first altitude.
         mor_m: Option<f64>,
@@ -31,7 +33,11 @@ impl FogSource {
     pub(super) fn new(args: &FogSourceArgs) -> Result<Self> {
         if args.model.is_some() {
             let Some(height_m) = args.height else { bail!("--model needs --height") };
-            let model = AdvectionModel::arcata()?;
+            let model = fogbank::load_model(args.coefficients.as_deref())?;
+            let source = match &args.coefficients {
+                None => "Kolářová, Lachiver & Wilkie 2024".to_owned(),
+                Some(file) => format!("model of {}", file.display()),
+            };
             model.check_height(height_m)?;
             if model.extrapolates(height_m) {
                 let heights = model.measured_heights_m();
@@ -42,7 +48,7 @@ impl FogSource {
                     heights[heights.len() - 1]
                 ));
             }
-            return Ok(Self::Advection { model, height_m, mor_m: args.mor });
+            return Ok(Self::Advection { model, source, height_m, mor_m: args.mor });
         }
         let amounts = amounts(args);
         amounts.iter().try_for_each(Amount::check)?;

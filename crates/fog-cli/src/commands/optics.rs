@@ -55,7 +55,7 @@ pub(crate) fn run(args: &OpticsArgs) -> Result<ExitCode> {
 fn fogs(args: &OpticsArgs) -> Result<Vec<(Option<f64>, Option<FogParcel>)>> {
     let altitudes = &args.fog.altitude;
     match FogSource::new(&args.fog)? {
-        FogSource::Advection { model, height_m, mor_m } => {
+        FogSource::Advection { model, height_m, mor_m, .. } => {
             if altitudes.is_empty() {
                 bail!("--model needs --altitude: the fog depends on it");
             }

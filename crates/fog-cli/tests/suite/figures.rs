@@ -27,15 +27,15 @@ fn heights_formats_and_models_are_heeded() {
         arcata.replace("number_density_scale: 1.0", "number_density_scale: 3.0"),
     );
     let draw = |more: &[&str]| {
-        let mut args = vec!["figures", "--out", "o", "--only", "fig3,fig5", "--format", "csv"];
+        let mut args = vec!["figures", "--out", "o", "--only", "fig3,fig5", "--format", "csv,svg,csv"];
         args.extend(more);
         let said = run(&args, dir.path()).ok().stdout;
-        assert_eq!(names(&dir.path().join("o")), ["fig3.csv", "fig5.csv"]);
+        assert_eq!(names(&dir.path().join("o")), ["fig3.csv", "fig3.svg", "fig5.csv", "fig5.svg"]);
         (said, fs::read_to_string(dir.path().join("o/fig5.csv")).expect("read"))
     };
     let (said, thin) = draw(&["--height", "150"]);
     assert!(!said.contains("warning") && thin.lines().skip(1).all(|l| l.starts_with("150,")), "{said}{thin}");
-    let (said, dense) = draw(&["--height", "150", "--model", "denser.yaml", "--quiet"]);
+    let (said, dense) = draw(&["--height", "150", "--coefficients", "denser.yaml", "--quiet"]);
     assert_eq!(said, "");
     let base = |csv: &str| {
         csv.lines().nth(1).and_then(|l| l.split(',').nth(2)?.parse::<f64>().ok()).expect("number")
@@ -60,8 +60,8 @@ fn mistakes_say_what_would_be_right() {
         (&["--out", "o", "--height", "5000"], &["fog height_m is 5000", "1 to 2000"]),
         (&["--out", "o", "--height", "tall"], &["tall"]),
         (&["--out", "o", "--format", "pdf"], &["pdf", "svg", "png", "csv"]),
-        (&["--out", "o", "--model", "none.yaml"], &["cannot read none.yaml"]),
-        (&["--out", "o", "--model", "broken.yaml"], &["broken.yaml"]),
+        (&["--out", "o", "--coefficients", "none.yaml"], &["cannot read none.yaml"]),
+        (&["--out", "o", "--coefficients", "broken.yaml"], &["broken.yaml: fog model: `mu_L`: ", "line 1"]),
         (&["--out", "file/o", "--only", "fig5"], &["cannot make file/o"]),
     ] {
         let run = run(&[&["figures"], args].concat(), dir.path());

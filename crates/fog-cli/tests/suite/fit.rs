@@ -38,7 +38,7 @@ fn flights_become_a_model_and_a_report() {
     let args = [
         "fit",
         "synthetic",
-        "--model",
+        "--coefficients",
         "model.yaml",
         "--heights-m",
         "150",
@@ -96,8 +96,11 @@ fn mistakes_are_explained() {
     refuse(&synthetic(&["--heights-m", "0"]), "fog height_m is 0");
     refuse(&synthetic(&["--sample-volume-cm3", "0"]), "sample volume in m³ is 0");
     refuse(&synthetic(&["--altitude-step-m", "500"]), "altitude step in m is 500");
-    refuse(&synthetic(&["--model", "bad.yaml"]), "bad.yaml");
-    refuse(&synthetic(&["--model", "none.yaml"]), "cannot read none.yaml");
+    refuse(
+        &synthetic(&["--coefficients", "bad.yaml"]),
+        "bad.yaml: fog model: missing field `diameter_range_um`",
+    );
+    refuse(&synthetic(&["--coefficients", "none.yaml"]), "cannot read none.yaml");
 }
 
 #[test]

@@ -23,8 +23,7 @@ struct ModelFile {
 
 /// Reads and checks a model.
 pub(super) fn parse(text: &str) -> Result<AdvectionModel, OpticsError> {
-    let file: ModelFile =
-        serde_yaml::from_str(text).map_err(|error| OpticsError::ModelText(error.to_string()))?;
+    let file: ModelFile = serde_yaml::from_str(text).map_err(|error| no_model(text, &error))?;
     check(&file)?;
     let diameters = DiameterGrid::fine(file.diameter_range_um)
         .map_err(|error| fault("diameter_range_um", error.to_string()))?;
@@ -41,6 +40,19 @@ pub(super) fn parse(text: &str) -> Result<AdvectionModel, OpticsError> {
     };
     check_spectra(&model)?;
     Ok(model)
+}
+
+/// The parser's message on one line: the key whose value it stumbled over, what is wrong, line and column. A message about a
+/// key itself, at the beginning of a line, names it already.
+fn no_model(text: &str, error: &serde_yaml::Error) -> OpticsError {
+    let [line, column] = error.location().map_or([0; 2], |at| [at.line() as usize, at.column() as usize]);
+    let key_of = |line: &str| {
+        let (key, _) = line.split_once(':')?;
+        key.starts_with(|c: char| c.is_ascii_alphabetic()).then(|| key.to_owned())
+    };
+    let key = text.lines().take(line).filter_map(key_of).last().filter(|_| column > 1);
+    let key = key.map_or_else(String::new, |key| format!("`{key}`: "));
+    OpticsError::ModelText(format!("{key}{}", error.without_snippet()))
 }
 
 fn fault(key: &'static str, problem: impl Into<String>) -> OpticsError {
@@ -133,8 +145,11 @@ mod tests {
     #[test]
     fn mistakes_are_named_with_their_place() {
         let message = error("mu_G:", "mu_Q:");
-        assert!(message.contains("mu_Q") && message.contains("line 1"), "{message}");
-        assert!(error("sigma_G: [1.41, 1.60]", "sigma_G: [wide]").contains("line"));
+        assert!(message.contains("mu_Q") && message.contains("line 13, column 1"), "{message}");
+        let message = error("sigma_G: [1.41, 1.60]", "sigma_G: [wide]");
+        assert_eq!(message, "fog model: `sigma_G`: invalid floating point at line 14, column 11");
+        let message = error("- [3.675e7, 1.225e5]", "- [3.675e7, few]");
+        assert!(message.starts_with("fog model: `number_density`: ") && !message.contains('\n'), "{message}");
         assert!(error("sigma_G: [1.41, 1.60]", "sigma_G: [1.0, -2.0]").contains("sigma_G"));
         assert!(error("sigma_L: [0.79]", "sigma_L: []").contains("sigma_L"));
         assert!(error("sigma_L: [0.79]", "sigma_L: [.nan]").contains("sigma_L"));

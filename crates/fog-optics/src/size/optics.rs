@@ -42,11 +42,7 @@ impl SizeDistribution {
             terms.map(|(i, (droplet, n))| self.grid.weight_um(i) * n * f(droplet)).sum()
         };
         let c_sca_m2 = sum(|d| d.sca);
-        Ok(MeanOptics {
-            c_ext_m2: sum(|d| d.ext),
-            c_sca_m2,
-            g: sum(|d| d.sca_cosine) / c_sca_m2,
-        })
+        Ok(MeanOptics { c_ext_m2: sum(|d| d.ext), c_sca_m2, g: sum(|d| d.sca_cosine) / c_sca_m2 })
     }
 
     /// Draws the diameter of the droplet that light of a wavelength (nm) meets: the density is ∝ n(d) C_ext(d), linear

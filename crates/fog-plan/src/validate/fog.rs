@@ -63,8 +63,12 @@ impl Check<'_> {
         };
         if spec.coefficients.is_some() && !spec.takes_advection_model() {
             let message = match name {
-                Droplets => "is the file of the advection model, which `droplets` takes only `vertical: advection` from",
-                _ => "is the file of the advection model, but this fog's extinction and phase function are given",
+                Droplets => {
+                    "is the file of the advection model, which `droplets` takes only `vertical: advection` from"
+                }
+                _ => {
+                    "is the file of the advection model, but this fog's extinction and phase function are given"
+                }
             };
             self.problem("fog.coefficients", message);
             return None;

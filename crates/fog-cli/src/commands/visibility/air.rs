@@ -43,7 +43,9 @@ impl Air {
             return Self::of_layer(&layer, format!("Layer of {}", file.display()), Droplets::Unknown);
         }
         match FogSource::new(&args.fog)? {
-            FogSource::Advection { model, height_m, mor_m } => advection(model, height_m, mor_m, first_m),
+            FogSource::Advection { model, source, height_m, mor_m } => {
+                advection(model, &source, height_m, mor_m, first_m)
+            }
             FogSource::Droplets { fog, description } => {
                 let sigma_t = fog.sigma_t_550_1_m();
                 Self::even(sigma_t, args.fog.height, description, Droplets::Everywhere(Box::new(fog)))
@@ -89,11 +91,17 @@ impl Air {
 }
 
 /// The model's layer. One wavelength is enough, whose table takes a few hundredths of a second.
-fn advection(model: AdvectionModel, height_m: f64, mor_m: Option<f64>, first_m: f64) -> Result<Air> {
+fn advection(
+    model: AdvectionModel,
+    source: &str,
+    height_m: f64,
+    mor_m: Option<f64>,
+    first_m: f64,
+) -> Result<Air> {
     let settings = TableSettings { wavelengths_nm: vec![REFERENCE_NM], ..TableSettings::visible(&model) };
     let table = build_table(&model, &settings, &|_| ())?;
     let mut fog = layer::advection(&table, &model, height_m, 1.0)?;
-    let mut description = format!("Advection fog, {height_m} m high (Kolářová, Lachiver & Wilkie 2024)");
+    let mut description = format!("Advection fog, {height_m} m high ({source})");
     let mut scale = 1.0;
     if let Some(mor_m) = mor_m {
         scale = fog.scale_for_mor(mor_m, first_m)?;
