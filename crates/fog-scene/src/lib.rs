@@ -1,5 +1,6 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
 
+mod attributes;
 mod bvh;
 mod error;
 pub mod generate;
@@ -9,11 +10,12 @@ mod material;
 mod texture;
 mod triangle;
 
+pub use attributes::CornerValues;
 pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
 pub use geometry::Geometry;
 pub use gltf_load::{Limits, LoadedScene, SceneObject, load};
-pub use material::{AlphaMask, AlphaMode, Material, SurfaceParameters, TextureRef};
+pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef, UvTransform};
 pub use texture::{Encoding, Filter, Image, Texture, Wrap};
 pub use triangle::{SurfacePoint, Triangle, offset_origin};
 pub mod bsdf;

@@ -69,6 +69,11 @@ impl<'a> Images<'a> {
         Ok(index)
     }
 
+    /// A texture of the file.
+    pub(super) fn document_texture(&self, index: usize) -> Option<gltf::Texture<'a>> {
+        self.document.textures().nth(index)
+    }
+
     /// All textures asked for, by index.
     pub(super) fn into_textures(self) -> Vec<Texture> {
         self.textures
@@ -104,7 +109,7 @@ fn decode(bytes: &[u8], pixels: u64, limit: u64) -> Result<Image, SceneErrorKind
     let format = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
         _ => {
-            let text = format!("is {}; only PNG and JPEG are supported", kind_of(bytes));
+            let text = format!("is {}; only PNG and JPEG are supported{}", kind_of(bytes), advice(bytes));
             return Err(SceneErrorKind::Image(text));
         }
     };
@@ -124,6 +129,15 @@ fn decode(bytes: &[u8], pixels: u64, limit: u64) -> Result<Image, SceneErrorKind
     let (width, height) = rgba.dimensions();
     let (texels, _) = rgba.as_raw().as_chunks::<4>();
     Image::new(width, height, texels.to_vec()).ok_or_else(|| SceneErrorKind::Image("is empty".into()))
+}
+
+/// What makes an image readable.
+fn advice(bytes: &[u8]) -> &'static str {
+    match kind_of(bytes) {
+        "a WebP image" => ": convert with `gltf-transform png in.glb out.glb`",
+        "a KTX image" => ": convert with `gltf-transform ktxdecompress in.glb out.glb`",
+        _ => "",
+    }
 }
 
 /// Names the formats that glTF files may meet.
