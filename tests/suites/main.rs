@@ -2,6 +2,8 @@
 
 mod analog;
 mod furnace;
+mod materials;
+mod materials_rendered;
 mod radiances;
 mod samplers;
 mod street;

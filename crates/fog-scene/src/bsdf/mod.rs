@@ -1,11 +1,11 @@
-//! Scattering at one surface point: glTF's metallic-roughness material, on normal-mapped facets, as a transmitting sheet,
+//! Scattering at one surface point: glTF's metallic-roughness material, about a mapped normal, as a transmitting sheet,
 //! under a clear coat.
 //!
 //! Directions are in the shading frame (z = normal) and point away from the surface; light that goes through has wi.z < 0.
 
 mod clearcoat;
-mod facet;
 mod ggx;
+mod mapped_normal;
 mod metallic_roughness;
 mod sheet;
 
@@ -14,9 +14,9 @@ pub(crate) use ggx::MIN_ALPHA;
 
 use crate::material::SurfaceParameters;
 use clearcoat::Coat;
-use facet::Facet;
 use fog_core::Vec3A;
 use fog_core::spectrum::Spectrum;
+use mapped_normal::MappedNormal;
 use metallic_roughness::MetallicRoughness;
 use sheet::Sheet;
 
@@ -30,7 +30,7 @@ pub struct Bsdf {
 /// What most materials do not have.
 #[derive(Clone, Copy, Debug)]
 struct Layers {
-    facet: Option<Facet>,
+    normal: Option<MappedNormal>,
     coat: Option<Coat>,
     sheet: Option<Sheet>,
     /// Share of light that passes before the surface is met.
@@ -64,7 +64,7 @@ impl Bsdf {
         let layers = layered.then(|| {
             let sheet = Sheet::new(p, basis);
             let below = base.reflectance() + sheet.as_ref().map_or(0.0, |s| s.mean_transmittance(1.0));
-            Layers { facet: None, coat: Coat::new(p, below), sheet, clear: 0.0 }
+            Layers { normal: None, coat: Coat::new(p, below), sheet, clear: 0.0 }
         });
         Self { base, layers }
     }
@@ -73,9 +73,9 @@ impl Bsdf {
     /// what its clear coat reflects does not follow the map.
     #[must_use]
     pub fn with_normal(self, normal: Vec3A) -> Self {
-        let Some(facet) = Facet::new(normal) else { return self };
-        let none = Layers { facet: None, coat: None, sheet: None, clear: 0.0 };
-        Self { layers: Some(Layers { facet: Some(facet), ..self.layers.unwrap_or(none) }), ..self }
+        let none = Layers { normal: None, coat: None, sheet: None, clear: 0.0 };
+        let layers = self.layers.unwrap_or(none);
+        Self { layers: Some(Layers { normal: Some(MappedNormal::new(normal)), ..layers }), ..self }
     }
 
     /// The same material for rays of which a share `clear` (below 1) has been let pass straight: what is left out here is
@@ -144,8 +144,8 @@ impl Layers {
         if wi.z == 0.0 {
             return (Spectrum::ZERO, 0.0);
         }
-        let (value, pdf) = match &self.facet {
-            Some(facet) => facet.eval(base, wo, wi),
+        let (value, pdf) = match &self.normal {
+            Some(normal) => normal.eval(base, wo, wi),
             None => base.eval(wo, wi),
         };
         let below = (value * scale, (1.0 - shares.coat - shares.sheet) * pdf);
@@ -170,8 +170,8 @@ impl Layers {
             _ => {
                 // What the choice of the base leaves of the number chooses within it.
                 let pick = ((pick - layers) / (1.0 - layers)).clamp(0.0, 1.0);
-                let wi = match &self.facet {
-                    Some(facet) => facet.sample(base, wo, pick, u)?,
+                let wi = match &self.normal {
+                    Some(normal) => normal.sample(base, wo, pick, u),
                     None => base.sample(wo, pick, u),
                 };
                 (wi, 1.0)

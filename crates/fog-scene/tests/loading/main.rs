@@ -1,6 +1,8 @@
 //! What the loader makes of well-formed files.
 
+#[path = "../common/mod.rs"]
 mod common;
+mod materials;
 
 use common::{TRIANGLE, data, document, floats, glb, load_bytes, refusal};
 use fog_scene::{AlphaMode, Limits, load};
