@@ -155,7 +155,7 @@ fn white_glass_and_white_normal_maps_vanish_in_a_white_room() {
         loaded.geometry = loaded.geometry.with_attributes(CornerValues::default(), tangents);
         loaded
     };
-    let map = NormalMap { texture: TextureRef::new(0, 0), scale: 1.5 };
+    let map = NormalMap { texture: TextureRef { texture: 0, set: 0 }, scale: 1.5 };
     let white = Material { base_color: [1.0; 4], normal_map: Some(map), double_sided: true, ..black() };
     let bumpy = chalk(with_materials(&street, vec![white; street.materials.len()]));
     for (name, loaded, fog) in [

@@ -185,7 +185,7 @@ fn cut_out_texels_are_passed() {
     let image = Image::new(2, 1, vec![[255; 4], [255, 255, 255, 10]]).unwrap();
     let texture = Texture::new(Arc::new(image), Encoding::Srgb, Filter::Nearest, [Wrap::Clamp; 2]);
     let leaf = Material {
-        base_color_texture: Some(TextureRef::new(0, 1)),
+        base_color_texture: Some(TextureRef { texture: 0, set: 1 }),
         alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
         ..Material::default()
     };

@@ -1,6 +1,11 @@
 //! Light that goes through a thin sheet (`KHR_materials_transmission`): what the dielectric part does not reflect, tinted
 //! by the base colour, straight on through smooth sheets and blurred like a reflection by rough ones. Nothing is bent:
 //! both sides of the sheet bend by opposite angles.
+//!
+//! Of smooth sheets rays are let pass the share that is clear at every wavelength, before a surface is met
+//! ([`SurfaceParameters::clear_share`]): light is then found through windows by aiming at it. What is left, the colour of
+//! coloured glass, is found by paths that happen on the light alone: a parallel beam, which no path can happen on, shines
+//! through coloured glass as if it had its darkest colour only.
 
 use super::ggx::{Ggx, MIN_ALPHA};
 use super::schlick;

@@ -4,6 +4,7 @@ use super::accessor::Buffers;
 use super::files::Files;
 use crate::error::{Failure, SceneErrorKind};
 use crate::texture::{Encoding, Filter, Image, Texture, Wrap};
+use crate::uv_transform::UvTransform;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::{Document, image::Source};
 use image::{ImageFormat, ImageReader};
@@ -19,7 +20,7 @@ pub(super) struct Images<'a> {
     limit: u64,
     pixels_left: u64,
     images: BTreeMap<usize, Arc<Image>>,
-    by_use: BTreeMap<(usize, bool), u32>,
+    by_use: BTreeMap<(usize, bool, Option<[u32; 6]>), u32>,
     textures: Vec<Texture>,
 }
 
@@ -42,13 +43,14 @@ impl<'a> Images<'a> {
         }
     }
 
-    /// Index of a glTF texture read in an encoding; decodes its image at its first use.
+    /// Index of a glTF texture read in an encoding and at moved coordinates; decodes its image at its first use.
     pub(super) fn texture(
         &mut self,
         texture: &gltf::Texture<'_>,
         encoding: Encoding,
+        transform: Option<UvTransform>,
     ) -> Result<u32, Failure> {
-        let key = (texture.index(), encoding == Encoding::Srgb);
+        let key = (texture.index(), encoding == Encoding::Srgb, transform.map(|t| t.bits()));
         if let Some(&index) = self.by_use.get(&key) {
             return Ok(index);
         }
@@ -64,7 +66,11 @@ impl<'a> Images<'a> {
             WrappingMode::Repeat => Wrap::Repeat,
         });
         let index = self.textures.len() as u32;
-        self.textures.push(Texture::new(image, encoding, filter, wrap));
+        let texture = Texture::new(image, encoding, filter, wrap);
+        self.textures.push(match transform {
+            Some(transform) => texture.moved(transform),
+            None => texture,
+        });
         self.by_use.insert(key, index);
         Ok(index)
     }

@@ -2,8 +2,9 @@
 
 use super::images::Images;
 use crate::error::{Failure, SceneErrorKind};
-use crate::material::{TextureRef, UvTransform};
+use crate::material::TextureRef;
 use crate::texture::Encoding;
+use crate::uv_transform::UvTransform;
 use gltf::texture::Info;
 use serde_json::Value;
 
@@ -98,8 +99,8 @@ impl Reader<'_, '_> {
             return Err(self.failure(text));
         }
         let transform = transform.map(|t| self.transform(t)).transpose()?.flatten();
-        let texture = self.images.texture(&texture, encoding)?;
-        Ok(Some(TextureRef { texture, set: set as u8, transform }))
+        let texture = self.images.texture(&texture, encoding, transform)?;
+        Ok(Some(TextureRef { texture, set: set as u8 }))
     }
 
     fn set(&self, value: &Value, key: &str) -> Result<u32, Failure> {

@@ -114,7 +114,7 @@ fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
     materials.push(Material::default());
 
     let nodes::Flat { triangles, colors, tangents, objects } =
-        nodes::flatten(&document, &buffers, &materials, limits.max_triangles, &mut warnings)?;
+        nodes::flatten(&document, &buffers, (&materials, &textures), limits.max_triangles, &mut warnings)?;
     let shared: Arc<[Texture]> = textures.iter().cloned().collect();
     let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
     let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);

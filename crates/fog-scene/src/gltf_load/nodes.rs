@@ -6,6 +6,7 @@ use super::{SceneObject, Warnings};
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::material::Material;
+use crate::texture::Texture;
 use crate::triangle::Triangle;
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
 use gltf::scene::Transform;
@@ -37,7 +38,7 @@ struct Inherited {
 pub(super) fn flatten(
     document: &Document,
     buffers: &Buffers,
-    materials: &[Material],
+    (materials, textures): (&[Material], &[Texture]),
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -76,7 +77,8 @@ pub(super) fn flatten(
             let primitives = match meshes.get(&mesh.index()) {
                 Some(primitives) => Rc::clone(primitives),
                 None => {
-                    let read = primitives::read(&mesh, buffers, materials, max_triangles, warnings)?;
+                    let read =
+                        primitives::read(&mesh, buffers, (materials, textures), max_triangles, warnings)?;
                     check_texture_sets(&read, &mesh_name(&mesh), materials, warnings);
                     let read: Rc<[Primitive]> = read.into();
                     meshes.insert(mesh.index(), Rc::clone(&read));

@@ -3,7 +3,8 @@
 use super::accessor::Buffers;
 use super::{Warnings, tangents};
 use crate::error::{Failure, SceneErrorKind};
-use crate::material::{Material, NormalMap};
+use crate::material::Material;
+use crate::texture::Texture;
 use gltf::Accessor;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
@@ -33,7 +34,7 @@ pub(super) fn mesh_name(mesh: &gltf::Mesh<'_>) -> String {
 pub(super) fn read(
     mesh: &gltf::Mesh<'_>,
     buffers: &Buffers,
-    materials: &[Material],
+    (materials, textures): (&[Material], &[Texture]),
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Vec<Primitive>, Failure> {
@@ -55,7 +56,9 @@ pub(super) fn read(
             }
         }
         let material = primitive.material().index().and_then(|index| materials.get(index));
-        let normal_map = material.and_then(|material| material.normal_map);
+        let normal_map = material
+            .and_then(|material| material.normal_map)
+            .and_then(|map| Some((map.texture.set, textures.get(map.texture.texture as usize)?)));
         let read = read_one(&primitive, buffers, normal_map, max_triangles);
         let (primitive, leftover) = read.map_err(|text| {
             let place = || format!("mesh `{name}`, primitive {}", primitive.index());
@@ -75,7 +78,7 @@ pub(super) fn read(
 fn read_one(
     primitive: &gltf::Primitive<'_>,
     buffers: &Buffers,
-    normal_map: Option<NormalMap>,
+    normal_map: Option<(u8, &Texture)>,
     max_triangles: usize,
 ) -> Result<(Primitive, bool), String> {
     // A triangle has three corners: more vertices or indices than that are over the limit, or of no use.
@@ -133,8 +136,8 @@ fn read_one(
     // Tangents belong to normals: a file without these has no use for those.
     if !of_vertices.is_empty() && !out.normals.is_empty() {
         out.tangents = out.triangles.iter().map(|t| t.map(|vertex| of_vertices[vertex as usize])).collect();
-    } else if let Some(map) = normal_map {
-        out.tangents = tangents::generate(&out, &map.texture);
+    } else if let Some((set, texture)) = normal_map {
+        out.tangents = tangents::generate(&out, set, texture);
     }
     Ok((out, leftover))
 }

@@ -1,15 +1,16 @@
-//! Tangents for normal maps of meshes that bring none, by MikkTSpace, as glTF asks (specification 2.0, sec. 3.7.2.1).
+//! Tangents for normal maps of meshes that bring none, by MikkTSpace, as glTF asks (specification 2.0, sec. 3.7.2.1), along the axes of
+//! the map's image.
 
 use super::primitives::Primitive;
-use crate::material::TextureRef;
+use crate::texture::Texture;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use fog_core::math;
 use glam::Vec3;
 
 /// Tangent and sign of the bitangent (normal × tangent) at the corners of each triangle, in the mesh's space. Empty if the
 /// vertices are not such that tangents can be made: without texture coordinates, or with values that are not finite.
-pub(super) fn generate(primitive: &Primitive, texture: &TextureRef) -> Vec<[[f32; 4]; 3]> {
-    let uv = &primitive.uv[usize::from(texture.set & 1)];
+pub(super) fn generate(primitive: &Primitive, set: u8, texture: &Texture) -> Vec<[[f32; 4]; 3]> {
+    let uv = &primitive.uv[usize::from(set & 1)];
     let finite = uv.as_flattened().iter().all(|x| x.is_finite())
         && primitive.positions.as_flattened().iter().all(|x| x.is_finite())
         && primitive.normals.as_flattened().iter().all(|x| x.is_finite());
@@ -17,7 +18,7 @@ pub(super) fn generate(primitive: &Primitive, texture: &TextureRef) -> Vec<[[f32
         return Vec::new();
     }
     let out = vec![[[0.0; 4]; 3]; primitive.triangles.len()];
-    let mut mesh = Mesh { primitive, texture, out };
+    let mut mesh = Mesh { primitive, uv, texture, out };
     match generate_tangents::<_, Portable>(&mut mesh) {
         Ok(()) => mesh.out,
         Err(_) => Vec::new(),
@@ -26,7 +27,8 @@ pub(super) fn generate(primitive: &Primitive, texture: &TextureRef) -> Vec<[[f32
 
 struct Mesh<'a> {
     primitive: &'a Primitive,
-    texture: &'a TextureRef,
+    uv: &'a [[f32; 2]],
+    texture: &'a Texture,
     out: Vec<[[f32; 4]; 3]>,
 }
 
@@ -66,11 +68,7 @@ impl Geometry<Portable> for Mesh<'_> {
     }
 
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        let vertex = self.primitive.triangles[face][corner] as usize;
-        let mut sets = [[0.0; 2]; 2];
-        let set = usize::from(self.texture.set & 1);
-        sets[set] = self.primitive.uv[set][vertex];
-        self.texture.coordinates(&sets)
+        self.texture.image_coordinates(self.uv[self.primitive.triangles[face][corner] as usize])
     }
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {

@@ -4,15 +4,22 @@
 
 mod opacity;
 mod parameters;
-mod texture_ref;
 
 pub use opacity::Opacity;
 pub use parameters::SurfaceParameters;
-pub use texture_ref::{TextureRef, UvTransform};
 
 use crate::texture::Texture;
 use fog_core::Vec3A;
 use fog_core::colour::Rgb;
+
+/// A texture of the scene and the set of coordinates that it is read with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureRef {
+    /// Index into the scene's textures.
+    pub texture: u32,
+    /// 0 or 1: `TEXCOORD_0` or `TEXCOORD_1`.
+    pub set: u8,
+}
 
 /// What alpha means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +126,8 @@ impl Default for Material {
 
 /// Texel of a texture, or 1.
 fn texel(textures: &[Texture], reference: Option<TextureRef>, uv: &[[f32; 2]; 2]) -> [f32; 4] {
-    reference.and_then(|r| r.sample(textures, uv)).unwrap_or([1.0; 4])
+    let lookup = |r: TextureRef| Some(textures.get(r.texture as usize)?.sample(uv[(r.set & 1) as usize]));
+    reference.and_then(lookup).unwrap_or([1.0; 4])
 }
 
 impl Material {
@@ -152,7 +160,7 @@ impl Material {
     #[must_use]
     pub fn mapped_normal(&self, textures: &[Texture], uv: &[[f32; 2]; 2]) -> Option<Vec3A> {
         let map = self.normal_map?;
-        let [x, y, z, _] = map.texture.sample(textures, uv)?.map(|c| 2.0 * c - 1.0);
+        let [x, y, z, _] = texel(textures, Some(map.texture), uv).map(|c| 2.0 * c - 1.0);
         Vec3A::new(x * map.scale, y * map.scale, z).try_normalize()
     }
 
@@ -260,7 +268,7 @@ mod tests {
         let image = Arc::new(Image::new(1, 1, vec![[255, 0, 255, 255]]).unwrap());
         let texture = Texture::new(image, Encoding::Linear, Filter::Nearest, [Wrap::Repeat; 2]);
         let bump = |scale| Material {
-            normal_map: Some(NormalMap { texture: TextureRef::new(0, 0), scale }),
+            normal_map: Some(NormalMap { texture: TextureRef { texture: 0, set: 0 }, scale }),
             ..Material::default()
         };
         let normal = bump(0.5).mapped_normal(&[texture], &[[0.5; 2]; 2]).unwrap();
