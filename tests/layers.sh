@@ -8,7 +8,7 @@ layer() {
   case $1 in
     fog-core) echo 0 ;;
     fog-optics | fog-scene | fog-film | fog-plan) echo 1 ;;
-    fog-tracer | fog-dataset) echo 2 ;;
+    fog-tracer | fog-dataset | fog-figures) echo 2 ;;
     fogbank) echo 3 ;;
     fog-cli) echo 4 ;;
     *) echo "layers: $1 has no layer; add it to tests/layers.sh and ARCHITECTURE.md" >&2; exit 1 ;;

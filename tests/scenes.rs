@@ -1,7 +1,10 @@
 //! Small scenes that several suites render.
 
+use fog_core::diameter_choice::DiameterChoice;
+use fog_core::droplet_table::{DropletColumn, DropletTable};
 use fog_core::math;
-use fog_core::optics_table::{OpticsTable, OpticsTableParts};
+use fog_core::optics_table::{OpticsTable, OpticsTableError, OpticsTableParts};
+use fog_core::phase::HenyeyGreenstein;
 use fog_core::phase_grid;
 use fog_core::profile::ExtinctionProfile;
 use fog_core::{Vec3, Vec3A, colour::Observer};
@@ -26,10 +29,8 @@ pub fn small_table() -> OpticsTable {
             let g = 0.6 + 0.2 * f64::from(z) + 0.1 * f64::from(l);
             g_all.push(g);
             c_ext_m2.push(1e-10 * (1.0 + 0.3 * f64::from(l)));
-            phase.extend(nodes.iter().map(|&m| {
-                let d = (1.0 - g) * (1.0 - g) + 2.0 * g * m;
-                (1.0 - g * g) / (4.0 * math::PI * d * d.sqrt())
-            }));
+            let hg = HenyeyGreenstein::new(g).expect("valid g");
+            phase.extend(nodes.iter().map(|&m| hg.eval(m)));
         }
     }
     OpticsTable::new(&OpticsTableParts {
@@ -54,21 +55,89 @@ pub fn grey_profile(height_m: f64, sigma_t_1_m: &[f64], albedo: f64) -> Extincti
 /// Fog whose extinction and phase function depend on the wavelength.
 #[must_use]
 pub fn coloured_fog(height_m: f64, sigma_t_1_m: f64, albedo: f64) -> Medium {
-    let profile = ExtinctionProfile::new(
+    Medium::new(coloured_profile(height_m, sigma_t_1_m, albedo), Phase::Table(small_table()))
+}
+
+fn coloured_profile(height_m: f64, sigma_t_1_m: f64, albedo: f64) -> ExtinctionProfile {
+    ExtinctionProfile::new(
         0.0,
         vec![0.0, 0.6 * height_m, height_m],
         vec![400.0, 700.0],
         [0.5, 0.9, 1.0, 1.6, 0.7, 1.1].map(|x| x * sigma_t_1_m).to_vec(),
         vec![albedo; 6],
     )
-    .expect("valid profile");
-    Medium::new(profile, Phase::Table(small_table()))
+    .expect("valid profile")
+}
+
+/// Droplets with their mixtures, over the same wavelengths.
+#[derive(Debug)]
+pub struct Droplets {
+    /// Phase functions of all droplets together.
+    pub mixtures: OpticsTable,
+    /// Each droplet's own.
+    pub single: DropletTable,
+    /// Their odds.
+    pub choice: DiameterChoice,
+}
+
+/// Droplets of Henyey–Greenstein functions between which everything depends strongly on the wavelength, unlike those of
+/// fog: small ones scatter backward and blue light, large ones forward and red light; the large ones are higher up.
+///
+/// # Panics
+/// If a table is refused (a mistake here).
+#[must_use]
+pub fn droplets() -> Droplets {
+    let (nodes, nm, diameters) = (phase_grid::nodes(), [380.0, 550.0, 780.0], [1.0, 2.0, 3.0, 4.0, 5.0]);
+    let hg = |d: usize, l: usize| HenyeyGreenstein::new(-0.3 + 0.25 * d as f64 + 0.05 * l as f64).expect("g");
+    let weight = |z: usize, d: usize, l: usize| {
+        let steepness = 1.2 * (l as f64 - 1.0) + 0.5 * z as f64;
+        math::f64::exp(steepness * (d as f64 - 2.0))
+    };
+    let single = DropletTable::new(&diameters, &nm, |l| {
+        Ok::<_, OpticsTableError>(DropletColumn {
+            c_ext_m2: vec![1.0; 5],
+            c_sca_m2: vec![1.0; 5],
+            g: (0..5).map(|d| hg(d, l).mean_cosine()).collect(),
+            phase: (0..5).flat_map(|d| nodes.iter().map(move |&m| hg(d, l).eval(m))).collect(),
+        })
+    });
+    let (mut weights, mut phase) = (Vec::new(), Vec::new());
+    for z in 0..2 {
+        for d in 0..5 {
+            weights.extend((0..3).map(|l| weight(z, d, l)));
+        }
+        for l in 0..3 {
+            let mixture = |m: f64| (0..5).map(|d| weight(z, d, l) * hg(d, l).eval(m)).sum::<f64>();
+            phase.extend(nodes.iter().map(|&m| mixture(m)));
+        }
+    }
+    let mixtures = OpticsTable::new(&OpticsTableParts {
+        zeta: vec![0.0, 1.0],
+        wavelengths_nm: nm.to_vec(),
+        c_ext_m2: vec![1.0; 6],
+        c_sca_m2: vec![1.0; 6],
+        g: vec![0.0; 6],
+        phase,
+    });
+    Droplets {
+        mixtures: mixtures.expect("mixtures"),
+        single: single.expect("droplets"),
+        choice: DiameterChoice::new(&[0.0, 1.0], 3, &weights).expect("odds"),
+    }
+}
+
+/// A layer of [`droplets`] whose extinction depends on the wavelength, by mixtures or by single droplets.
+#[must_use]
+pub fn parcel(height_m: f64, sigma_t_1_m: f64, single: bool) -> Medium {
+    let Droplets { mixtures, single: table, choice } = droplets();
+    let phase = if single { Phase::Droplets { table, choice } } else { Phase::Table(mixtures) };
+    Medium::new(coloured_profile(height_m, sigma_t_1_m, 1.0), phase)
 }
 
 /// Henyey–Greenstein fog.
 #[must_use]
 pub fn hg_fog(profile: ExtinctionProfile, g: f32) -> Medium {
-    Medium::new(profile, Phase::HenyeyGreenstein { g })
+    Medium::new(profile, Phase::HenyeyGreenstein(HenyeyGreenstein::new(f64::from(g)).expect("valid g")))
 }
 
 /// No surfaces at all.

@@ -96,6 +96,14 @@ fn emitting_surfaces() {
 }
 
 #[test]
+fn single_droplets() {
+    let fog = Some(scenes::parcel(80.0, 0.02, true));
+    let sun = Some(Sun::new(35.0, 150.0, 2.0, 10.0));
+    let scene = Scene::new(scenes::load("street_night.glb"), fog, None, sun, true);
+    assert_agree("droplets", &scene, &RAYS[..2], None, 300_000);
+}
+
+#[test]
 fn everything_with_limited_depth() {
     let env = Some(Environment { radiance: 0.2 });
     let sun = Some(Sun::new(50.0, 20.0, 1.0, 10.0));

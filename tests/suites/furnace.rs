@@ -1,8 +1,10 @@
 //! White furnaces: in a uniform environment of radiance 1, nothing that only scatters can be seen.
 
 use fog_core::math;
+use fog_optics::jendersie_deon;
 use fog_scene::light::Environment;
 use fog_scene::medium::Medium;
+use fog_scene::phase::Phase;
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
 
@@ -45,6 +47,19 @@ fn fog_alone() {
     for (name, fog) in fogs() {
         let scene = Scene::new(scenes::empty(), Some(fog), WHITE, None, false);
         assert_white(&name, &scene, 30.0, 0.0, 256);
+    }
+}
+
+#[test]
+fn single_droplets_and_closed_forms() {
+    let fit = jendersie_deon::phase_function(12.0).unwrap();
+    let grey = scenes::grey_profile(100.0, &[0.03, 0.06, 0.015], 1.0);
+    for (name, fog) in [
+        ("single droplets", scenes::parcel(100.0, 0.05, true)),
+        ("jendersie_deon", Medium::new(grey, Phase::HgDraine(fit))),
+    ] {
+        let scene = Scene::new(scenes::empty(), Some(fog), WHITE, None, false);
+        assert_white(name, &scene, 30.0, 0.0, 256);
     }
 }
 

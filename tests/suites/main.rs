@@ -1,9 +1,11 @@
 //! The slow suites, one program: statistical tests of every sampler, and renderings against independent references.
 
 mod analog;
+mod droplets;
 mod furnace;
 mod materials;
 mod materials_rendered;
+mod phases;
 mod radiances;
 mod samplers;
 mod street;

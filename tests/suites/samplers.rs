@@ -1,6 +1,7 @@
 //! Every sampler against its density, by chi-square.
 
 use fog_core::colour::Observer;
+use fog_core::phase::HenyeyGreenstein;
 use fog_core::profile::ExtinctionProfile;
 use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
@@ -19,7 +20,9 @@ fn phase_functions() {
     let mean_diameter = fog_optics::mean_diameter::mean_diameter_table(&model, 550.0).unwrap();
     let mut phases: Vec<(String, Phase)> = [0.0, 1e-7, 0.3, 0.83, 0.97, -0.4]
         .iter()
-        .map(|&g| (format!("Henyey-Greenstein {g}"), Phase::HenyeyGreenstein { g }))
+        .map(|&g| {
+            (format!("Henyey-Greenstein {g}"), Phase::HenyeyGreenstein(HenyeyGreenstein::new(g).unwrap()))
+        })
         .collect();
     phases.push(("Mie of the mean diameter".to_owned(), Phase::Table(mean_diameter)));
     phases.push(("two wavelengths and altitudes".to_owned(), Phase::Table(fog_tests::scenes::small_table())));

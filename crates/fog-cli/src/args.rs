@@ -1,5 +1,24 @@
 //! Arguments as they are typed.
 
+mod compare;
+mod figures;
+mod fit;
+mod fog_source;
+mod form;
+mod mie;
+mod number;
+mod optics;
+mod visibility;
+
+pub(crate) use compare::CompareArgs;
+pub(crate) use figures::{FigureFormat, FiguresArgs};
+pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
+pub(crate) use fog_source::FogSourceArgs;
+pub(crate) use form::FormArgs;
+pub(crate) use mie::MieArgs;
+pub(crate) use optics::OpticsArgs;
+pub(crate) use visibility::{EditionArg, VisibilityArgs};
+
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -16,7 +35,10 @@ Examples:
   fogbank plan configs/quickstart.yaml                        list the frames without rendering
   fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
   fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
+  fogbank compare a.hdr.exr b.hdr.exr --out map.png           how different they look, where, and in radiance
   fogbank schema > fogbank.schema.json                        for completion and checks in an editor
+  fogbank visibility --model advection --height 180           how far one sees in that fog, by every law
+  fogbank optics --model advection --height 180 --altitude 2 --wavelength 550 905   extinction, albedo, g, water
 
 Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files.";
 
@@ -32,8 +54,20 @@ pub(crate) enum Command {
     Schema,
     /// Write one of the built-in scenes as a GLB file.
     Scene(SceneArgs),
+    /// Fit a fog model to measured droplet counts.
+    Fit(FitArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
+    /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
+    Figures(FiguresArgs),
+    /// How far objects, lights and runways are seen in fog, by every law; conversions between visibility and water.
+    Visibility(VisibilityArgs),
+    /// Optical quantities of fog by altitude and wavelength.
+    Optics(OpticsArgs),
+    /// Scattering by one sphere: the Mie series.
+    Mie(MieArgs),
+    /// Compare two pictures or data sets: ΔE2000 with its map, relative MSE, PSNR, z-scores.
+    Compare(CompareArgs),
 }
 
 /// Which configuration.

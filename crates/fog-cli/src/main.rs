@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod print;
 mod report;
+mod rows;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -18,7 +19,13 @@ fn main() -> ExitCode {
         args::Command::Plan(args) => commands::plan::run(&args),
         args::Command::Schema => commands::schema::run(),
         args::Command::Scene(args) => commands::scene::run(&args),
+        args::Command::Fit(args) => commands::fit::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
+        args::Command::Figures(args) => commands::figures::run(&args),
+        args::Command::Visibility(args) => commands::visibility::run(&args),
+        args::Command::Optics(args) => commands::optics::run(&args),
+        args::Command::Mie(args) => commands::mie::run(&args),
+        args::Command::Compare(args) => commands::compare::run(&args),
     };
     match result {
         Ok(code) => code,

@@ -7,13 +7,20 @@
 //! radians unless a name says `_deg`. World: right-handed, +Y up; altitude is y over the fog's datum.
 
 pub mod colour;
+pub mod delta_e;
+pub mod diameter_choice;
+pub mod droplet_table;
 pub mod math;
 pub mod moments;
 pub mod optics_table;
+pub mod patchiness;
+pub mod phase;
 pub mod phase_grid;
+mod phase_lookup;
 pub mod profile;
 pub mod random;
 mod separable;
+mod shared_words;
 pub mod spectrum;
 pub mod warp;
 

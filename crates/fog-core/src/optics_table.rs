@@ -6,6 +6,9 @@
 
 use crate::math::PI;
 use crate::phase_grid::{self, NODES};
+use crate::phase_lookup::{eval_lanes, interpolating_row, invert_linear};
+pub use crate::shared_words::SharedBytes;
+use crate::shared_words::{self, SharedWords};
 use crate::spectrum::{LaneWeights, Spectrum};
 use std::sync::Arc;
 
@@ -36,19 +39,10 @@ pub enum OpticsTableError {
     Value(String),
 }
 
-/// Bytes that outlive the table: a memory map, or a vector.
-pub type SharedBytes = Arc<dyn AsRef<[u8]> + Send + Sync>;
-
-#[derive(Clone)]
-enum Storage {
-    Owned(Arc<Vec<u64>>),
-    Shared { bytes: SharedBytes, offset: usize },
-}
-
 /// Cross sections and phase functions by (ζ, λ); cheap to clone.
 #[derive(Clone)]
 pub struct OpticsTable {
-    storage: Storage,
+    storage: SharedWords,
     layout: Layout,
 }
 
@@ -145,7 +139,7 @@ impl OpticsTable {
             bytemuck::cast_slice::<u16, [u16; 4]>(&guide).iter().map(|&w| bytemuck::cast::<_, u64>(w)),
         );
         debug_assert_eq!(words.len(), layout.words());
-        Ok(Self { storage: Storage::Owned(Arc::new(words)), layout })
+        Ok(Self { storage: SharedWords::Owned(Arc::new(words)), layout })
     }
 
     /// Opens a table in bytes written by [`OpticsTable::as_bytes`] that start at `offset`.
@@ -156,28 +150,24 @@ impl OpticsTable {
         let all: &[u8] = (*bytes).as_ref();
         let data = all.get(offset..).unwrap_or(&[]);
         let size = |expected| OpticsTableError::Size { found: data.len(), expected };
-        let header = data.get(..HEADER * 8).ok_or(size(HEADER * 8))?;
-        let word = |i: usize| u64::from_le_bytes(header[i * 8..i * 8 + 8].try_into().expect("eight bytes"));
-        if [word(0), word(1), word(4), word(5)] != [MAGIC, VERSION, NODES as u64, GUIDE as u64] {
+        let word: [u64; HEADER] = shared_words::header(data).ok_or(size(HEADER * 8))?;
+        if [word[0], word[1], word[4], word[5]] != [MAGIC, VERSION, NODES as u64, GUIDE as u64] {
             return Err(OpticsTableError::Format);
         }
-        let (zetas, wavelengths) = (word(2) as usize, word(3) as usize);
+        let (zetas, wavelengths) = (word[2] as usize, word[3] as usize);
         if !(1..=4096).contains(&zetas) || !(1..=MAX_COLUMNS).contains(&wavelengths) {
             return Err(OpticsTableError::Format);
         }
         let layout = Layout { zetas, wavelengths };
         let expected = layout.words() * 8;
-        if data.len() != expected || bytemuck::try_cast_slice::<u8, u64>(data).is_err() {
+        if data.len() != expected || !shared_words::aligned(data) {
             return Err(size(expected));
         }
-        Ok(Self { storage: Storage::Shared { bytes, offset }, layout })
+        Ok(Self { storage: SharedWords::Shared { bytes, offset }, layout })
     }
 
     fn words(&self) -> &[u64] {
-        match &self.storage {
-            Storage::Owned(words) => words,
-            Storage::Shared { bytes, offset } => bytemuck::cast_slice(&(**bytes).as_ref()[*offset..]),
-        }
+        self.storage.get()
     }
 
     /// The whole table as bytes (native endianness; the cache's file name says which).
@@ -286,34 +276,14 @@ impl OpticsView<'_> {
     #[inline]
     #[must_use]
     pub fn phase_row(&self, zeta: f32, u: f32) -> usize {
-        let n = self.zeta.len();
-        if n == 1 {
-            return 0;
-        }
-        let zeta = f64::from(zeta);
-        let upper = self.zeta.partition_point(|&z| z <= zeta).clamp(1, n - 1);
-        let t = (zeta - self.zeta[upper - 1]) / (self.zeta[upper] - self.zeta[upper - 1]);
-        if f64::from(u) < t { upper } else { upper - 1 }
+        interpolating_row(self.zeta, zeta, u)
     }
 
     /// Phase function of row `row` in 1/sr at all lanes, for m = 1 − cos θ.
     #[inline]
     #[must_use]
     pub fn phase(&self, row: usize, m: f32, nodes: &[f32], lanes: &LaneWeights) -> Spectrum {
-        let i = phase_grid::interval(m);
-        let t = ((m - nodes[i]) / (nodes[i + 1] - nodes[i])).clamp(0.0, 1.0);
-        let w = self.wavelengths_nm.len();
-        let at = (row * NODES + i) * w;
-        let (low, high) = self.phase[at..at + 2 * w].split_at(w);
-        if w == 1 {
-            return Spectrum::splat(low[0] + (high[0] - low[0]) * t);
-        }
-        // First between angles at all wavelengths of the table, which lie side by side, then between wavelengths.
-        let mut column = [0.0f32; MAX_COLUMNS];
-        for ((c, l), h) in column.iter_mut().zip(low).zip(high) {
-            *c = l + (h - l) * t;
-        }
-        lanes.gather(&column)
+        eval_lanes(self.phase, self.wavelengths_nm.len(), row, m, nodes, lanes)
     }
 
     /// Value at node `node` of the phase function of (ζ row, λ row), in 1/sr.
@@ -335,11 +305,9 @@ impl OpticsView<'_> {
         }
         let p0 = f64::from(self.phase_node(zeta_row, wavelength_row, i));
         let p1 = f64::from(self.phase_node(zeta_row, wavelength_row, i + 1));
-        // Fraction t of the interval with p0 t + (p1 − p0) t²/2 = share of the interval's mean.
         let mass = cdf[i + 1] - cdf[i];
-        let share = if mass > 0.0 { ((u - cdf[i]) / mass).clamp(0.0, 1.0) } else { 0.0 } * 0.5 * (p0 + p1);
-        let root = (p0 * p0 + 2.0 * (p1 - p0) * share).max(0.0).sqrt();
-        let t = if p0 + root > 0.0 { (2.0 * share / (p0 + root)).min(1.0) } else { 0.0 };
+        let fraction = if mass > 0.0 { ((u - cdf[i]) / mass).clamp(0.0, 1.0) } else { 0.0 };
+        let t = invert_linear(p0, p1, fraction);
         (nodes[i] + t * (nodes[i + 1] - nodes[i])) as f32
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fog_film::{Channels, Frame};
+use fog_film::Channels;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Value, json};
@@ -14,7 +14,10 @@ use crate::{Attribute, Error, FrameFiles, OutputSet, Result, layers};
 /// Bytes of one hashed file; `path` is only for messages.
 pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, path: &Path) -> Result<Vec<u8>> {
     match kind {
-        Kind::Image => png(files.frame, files.exposure, path),
+        Kind::Image => {
+            let frame = files.frame;
+            png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path)
+        }
         Kind::Hdr => encode(picture(files, layers::radiance(files.frame, outputs), true), path),
         Kind::Truth => encode(picture(files, layers::truth(files.frame, outputs), false), path),
         _ => Ok(pretty(files.record)),
@@ -33,10 +36,11 @@ pub(crate) fn pretty(value: &Value) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }
 
-fn png(frame: &Frame, exposure: f32, path: &Path) -> Result<Vec<u8>> {
+/// An 8-bit RGB PNG; `path` is only for messages.
+pub(crate) fn png(width: u32, height: u32, bytes: &[u8], path: &Path) -> Result<Vec<u8>> {
     let mut out = Vec::new();
     PngEncoder::new_with_quality(&mut out, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&frame.to_srgb8(exposure), frame.width, frame.height, ExtendedColorType::Rgb8)
+        .write_image(bytes, width, height, ExtendedColorType::Rgb8)
         .map_err(Error::picture("encode", path))?;
     Ok(out)
 }

@@ -28,6 +28,14 @@ pub enum Error {
         /// The codec's reason.
         reason: String,
     },
+    /// A file that is no picture, or none of the kinds that are read.
+    #[error("{} is no picture that can be compared: {reason}", path.display())]
+    NotAPicture {
+        /// The file.
+        path: PathBuf,
+        /// What it is or lacks.
+        reason: String,
+    },
     /// A file of the data set does not hold what it should.
     #[error("{} is damaged: {reason}", path.display())]
     Damaged {

@@ -23,6 +23,14 @@ const ENCODING: Encoding = Encoding {
     line_order: LineOrder::Increasing,
 };
 
+/// Primaries and white of Rec. 709 and sRGB.
+pub(crate) const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.30, 0.60),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.3290),
+};
+
 /// Value of a custom EXR attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attribute {
@@ -72,12 +80,7 @@ pub(crate) fn encode(picture: Picture, path: &Path) -> Result<Vec<u8>> {
         .collect();
     let own = LayerAttributes { other: attributes, ..LayerAttributes::default() };
     let mut image = Image::from_layer(Layer::new(size, own, ENCODING, AnyChannels::sort(channels)));
-    image.attributes.chromaticities = picture.colour.then_some(Chromaticities {
-        red: Vec2(0.64, 0.33),
-        green: Vec2(0.30, 0.60),
-        blue: Vec2(0.15, 0.06),
-        white: Vec2(0.3127, 0.3290),
-    });
+    image.attributes.chromaticities = picture.colour.then_some(REC_709);
     let mut bytes = Cursor::new(Vec::new());
     image.write().to_buffered(&mut bytes).map_err(Error::picture("encode", path))?;
     let mut bytes = bytes.into_inner();
@@ -98,11 +101,24 @@ fn attribute_value(value: Attribute) -> AttributeValue {
     }
 }
 
+/// What [`read`] found in a file.
+pub(crate) struct Contents {
+    pub(crate) channels: BTreeMap<String, Channel>,
+    /// Our custom attributes that are numbers, without their prefix.
+    pub(crate) numbers: BTreeMap<String, f32>,
+    pub(crate) chromaticities: Option<Chromaticities>,
+}
+
 /// All channels of the first layer of an EXR file by name, as f32 (half and integer samples are converted).
 ///
 /// # Errors
 /// [`Error::Io`] when the file cannot be opened, [`Error::Picture`] when it is not a readable EXR picture.
 pub fn read_exr_channels(path: &Path) -> Result<BTreeMap<String, Channel>> {
+    Ok(read(path)?.channels)
+}
+
+/// The first layer of an EXR file.
+pub(crate) fn read(path: &Path) -> Result<Contents> {
     let file = File::open(path).map_err(Error::io("open", path))?;
     let image = exr::image::read::read()
         .no_deep_data()
@@ -115,15 +131,20 @@ pub fn read_exr_channels(path: &Path) -> Result<BTreeMap<String, Channel>> {
     let Vec2(columns, rows) = image.layer_data.size;
     let size = |n: usize| u32::try_from(n).map_err(Error::picture("decode", path));
     let (width, height) = (size(columns)?, size(rows)?);
-    let channels = image.layer_data.channel_data.list;
-    Ok(channels
-        .into_iter()
-        .map(|channel| {
-            let values = match channel.sample_data {
-                FlatSamples::F32(values) => values,
-                other => other.values_as_f32().collect(),
-            };
-            (channel.name.to_string(), Channel { width, height, values })
-        })
-        .collect())
+    let number = |(name, value): (Text, AttributeValue)| match value {
+        AttributeValue::F32(x) => Some((name.to_string().strip_prefix(ATTRIBUTE_PREFIX)?.to_owned(), x)),
+        _ => None,
+    };
+    let channel = |channel: AnyChannel<FlatSamples>| {
+        let values = match channel.sample_data {
+            FlatSamples::F32(values) => values,
+            other => other.values_as_f32().collect(),
+        };
+        (channel.name.to_string(), Channel { width, height, values })
+    };
+    Ok(Contents {
+        channels: image.layer_data.channel_data.list.into_iter().map(channel).collect(),
+        numbers: image.layer_data.attributes.other.into_iter().filter_map(number).collect(),
+        chromaticities: image.attributes.chromaticities,
+    })
 }

@@ -4,6 +4,9 @@ use fog_film::{Channels, Frame};
 
 use crate::OutputSet;
 
+/// Channel of the standard error of each pixel's luminance (mono frames: of their radiance).
+pub(crate) const STANDARD_ERROR: &str = "standard_error.Y";
+
 /// Channels of `<id>.hdr.exr` that the outputs ask for.
 pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {
     let mut out = Vec::new();
@@ -15,6 +18,9 @@ pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f3
     }
     if outputs.airlight {
         out.extend(colour(frame, "airlight.", |i| frame.airlight[i]));
+    }
+    if outputs.standard_error {
+        out.push((STANDARD_ERROR.to_owned(), frame.standard_error.clone()));
     }
     out
 }

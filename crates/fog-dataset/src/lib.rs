@@ -1,4 +1,5 @@
-//! Frames and their records to files, and back: layout, markers, resume and verification.
+//! Frames and their records to files, and back: layout, markers, resume and verification. Also single pictures, ours and
+//! those of others, to compare ([`read_picture`]).
 //!
 //! A data set is a folder:
 //!
@@ -8,7 +9,7 @@
 //! | `config.resolved.yaml` | the configuration with every default written out |
 //! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
 //! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
-//! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`; mono frames `Y` |
+//! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`; mono frames `Y` |
 //! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
 //! | `<id>.json` | the frame's record |
 //! | `<id>.timing.json` | seconds: the only file that differs between two runs |
@@ -35,6 +36,7 @@ mod layers;
 mod marker;
 mod names;
 mod outputs;
+mod picture_file;
 mod plan;
 mod read;
 mod verify;
@@ -47,6 +49,7 @@ pub use frame_files::FrameFiles;
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use outputs::OutputSet;
+pub use picture_file::{read_picture, write_png};
 pub use plan::PlanFrame;
-pub use read::{StoredFrame, read_frame, read_header, read_plan};
+pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan};
 pub use verify::{Problem, Report, verify};

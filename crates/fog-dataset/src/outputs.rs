@@ -24,12 +24,14 @@ pub struct OutputSet {
     pub direct: bool,
     /// Scattered part of the radiance.
     pub airlight: bool,
+    /// Standard error of the luminance.
+    pub standard_error: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 8] =
-        ["image", "hdr", "depth", "distance", "transmittance", "tau", "direct", "airlight"];
+    pub const NAMES: [&'static str; 9] =
+        ["image", "hdr", "depth", "distance", "transmittance", "tau", "direct", "airlight", "standard_error"];
 
     /// Every output.
     #[must_use]
@@ -65,7 +67,7 @@ impl OutputSet {
     /// Whether an `.hdr.exr` belongs to the frame.
     #[must_use]
     pub fn wants_hdr_file(self) -> bool {
-        self.hdr || self.direct || self.airlight
+        self.hdr || self.direct || self.airlight || self.standard_error
     }
 
     /// Whether a `.gt.exr` belongs to the frame.
@@ -84,6 +86,7 @@ impl OutputSet {
             "tau" => &mut self.tau,
             "direct" => &mut self.direct,
             "airlight" => &mut self.airlight,
+            "standard_error" => &mut self.standard_error,
             _ => return None,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -38,6 +38,16 @@ pub fn read_frame(dir: &Path, id: &str) -> Result<StoredFrame> {
         }
     }
     Ok(StoredFrame { channels, record })
+}
+
+/// Where the picture of a frame is: its linear radiance if that is an output, else its sRGB picture; `None` when it has
+/// neither or is not rendered.
+#[must_use]
+pub fn picture_path(dir: &Path, frame: &PlanFrame) -> Option<PathBuf> {
+    let outputs = frame.outputs;
+    let kinds = [(outputs.hdr, Kind::Hdr), (outputs.image, Kind::Image)];
+    let (_, kind) = kinds.into_iter().find(|(wanted, _)| *wanted)?;
+    Some(dir.join(kind.file(&frame.id))).filter(|path| path.is_file())
 }
 
 /// Reads `dataset.json`.

@@ -1,8 +1,8 @@
 //! The finished picture and its truth.
 
-use fog_core::colour::{Rgb, luminance, srgb_encode};
+use fog_core::colour::{Rgb, luminance};
 
-use crate::{FrameError, PixelFilm};
+use crate::{FrameError, PixelFilm, srgb8};
 
 /// What the three values of a pixel mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,7 +152,7 @@ impl Frame {
     /// The picture in 8-bit sRGB, three bytes per pixel, of exposure × radiance clamped to [0, 1]; mono frames are grey.
     #[must_use]
     pub fn to_srgb8(&self, exposure: f32) -> Vec<u8> {
-        let byte = |v: f32| (srgb_encode(v * exposure) * 255.0 + 0.5) as u8;
+        let byte = |v: f32| srgb8(v * exposure);
         (0..self.pixel_count())
             .flat_map(|i| {
                 let v = self.image(i);

@@ -4,7 +4,8 @@ mod model_file;
 
 use crate::distribution::{DiameterGrid, SpectrumShape};
 use crate::error::{OpticsError, check_range};
-use fog_core::math::{PI, f64::exp};
+use crate::size::{DropletMoments, SizeDistribution};
+use fog_core::math::f64::exp;
 
 /// The shipped model: text of `tables/advection/arcata.yaml` (its comments say what is the paper's and what is inferred).
 pub const ARCATA: &str = include_str!("../../../tables/advection/arcata.yaml");
@@ -12,8 +13,6 @@ pub const ARCATA: &str = include_str!("../../../tables/advection/arcata.yaml");
 /// Least and greatest fog height in m that the model accepts; it was measured in far fewer
 /// ([`AdvectionModel::measured_heights_m`]).
 pub const HEIGHT_RANGE_M: [f64; 2] = [1.0, 2000.0];
-
-const WATER_G_M3: f64 = 1e6;
 
 /// Polynomials over ζ = z/H, and over ζ and H for the number of droplets.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,19 +26,6 @@ pub struct AdvectionModel {
     ln_gl_ratio: Vec<f64>,
     number_density: Vec<Vec<f64>>,
     number_density_scale: f64,
-}
-
-/// Sums over the droplets of one spectrum, per droplet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DropletMoments {
-    /// Share of the droplets whose diameters lie in the model's range, ∫ n̂ dd; N times it is the number that is there.
-    pub share_in_range: f64,
-    /// Number-mean diameter ∫n d / ∫n in µm.
-    pub mean_diameter_um: f64,
-    /// Effective radius ½ ∫n d³ / ∫n d² in µm (Hansen & Travis 1974).
-    pub effective_radius_um: f64,
-    /// Mass of water per droplet in g: 10⁶ g/m³ · (π/6) ∫n̂ d³, with n̂ not renormalised over the range.
-    pub mass_g: f64,
 }
 
 impl AdvectionModel {
@@ -106,9 +92,12 @@ impl AdvectionModel {
         if !(0.0..=1.0).contains(&zeta) {
             return 0.0;
         }
-        let sum =
-            (self.number_density.iter().rev()).fold(0.0, |sum, row| sum * zeta + polynomial(row, height_m));
-        (sum * self.number_density_scale).max(0.0)
+        polynomial(&self.number_polynomial(height_m), zeta).max(0.0)
+    }
+
+    /// Coefficients over ζ of the number density in 1/m³ at a fog height in m.
+    pub(crate) fn number_polynomial(&self, height_m: f64) -> Vec<f64> {
+        self.number_density.iter().map(|row| self.number_density_scale * polynomial(row, height_m)).collect()
     }
 
     /// Density of droplets over diameter, n(d, z) in m⁻³ µm⁻¹ (Eq. 1), for a diameter in µm and a fog height in m.
@@ -117,25 +106,16 @@ impl AdvectionModel {
         self.number_density_1_m3(zeta, height_m) * self.shape(zeta).density_1_um(d_um)
     }
 
-    /// Moments of the spectrum at ζ, by the trapezoidal rule over [`AdvectionModel::diameters`].
+    /// The droplet spectrum at relative altitude ζ = z/H (clamped to [0, 1]), over [`AdvectionModel::diameters`].
+    #[must_use]
+    pub fn distribution(&self, zeta: f64) -> SizeDistribution {
+        SizeDistribution::unchecked(self.shape(zeta), self.diameters)
+    }
+
+    /// Moments of [`AdvectionModel::distribution`] at ζ.
     #[must_use]
     pub fn moments(&self, zeta: f64) -> DropletMoments {
-        let shape = self.shape(zeta);
-        let mut m = [0.0; 4];
-        for i in 0..self.diameters.count() {
-            let d = self.diameters.diameter_um(i);
-            let n = self.diameters.weight_um(i) * shape.density_1_um(d);
-            m[0] += n;
-            m[1] += n * d;
-            m[2] += n * d * d;
-            m[3] += n * d * d * d;
-        }
-        DropletMoments {
-            share_in_range: m[0],
-            mean_diameter_um: m[1] / m[0],
-            effective_radius_um: 0.5 * m[3] / m[2],
-            mass_g: WATER_G_M3 * PI / 6.0 * m[3] * 1e-18,
-        }
+        self.distribution(zeta).moments()
     }
 
     /// Liquid water content in g/m³ at ζ in a fog of height `height_m`.

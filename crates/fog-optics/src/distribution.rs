@@ -1,6 +1,9 @@
 //! Droplet-size distributions: the two parts of Eq. 1–3 of Kolářová, Lachiver & Wilkie 2024, and sums over diameters.
 
-use crate::error::OpticsError;
+mod grid;
+
+pub use grid::DiameterGrid;
+
 use fog_core::math::f64::{exp, ln};
 
 const SQRT_TAU: f64 = 2.506_628_274_631_000_5; // √(2π)
@@ -38,6 +41,13 @@ pub struct SpectrumShape {
 }
 
 impl SpectrumShape {
+    /// μ_L, σ_L, μ_G, σ_G and ln(G : L): what a model file has polynomials for, in its order. ln(G : L) is −inf without a
+    /// Gaussian part.
+    #[must_use]
+    pub fn parameters(&self) -> [f64; 5] {
+        [self.mu_l, self.sigma_l, self.mu_g, self.sigma_g, ln(self.gl_ratio)]
+    }
+
     /// Density per droplet in µm⁻¹ at diameter `d_um`: (logn + r·Gauss)/(1 + r).
     ///
     /// Its integral over all diameters is 1; it is not renormalised over a truncated range, nor for the part of the
@@ -47,70 +57,6 @@ impl SpectrumShape {
         let r = self.gl_ratio;
         let sum = lognormal(d_um, self.mu_l, self.sigma_l) + r * gaussian(d_um, self.mu_g, self.sigma_g);
         sum / (1.0 + r)
-    }
-}
-
-/// Diameters at equal steps, with the weights of the trapezoidal rule.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiameterGrid {
-    first_um: f64,
-    step_um: f64,
-    count: usize,
-}
-
-impl DiameterGrid {
-    /// Diameters from `first_um` to `last_um` inclusive in steps of `step_um`, all in µm.
-    ///
-    /// # Errors
-    /// Unless 0 < first < last and the step, > 0, divides their distance into at most 100 000 parts (to 1e-6 of a step).
-    pub fn new(first_um: f64, last_um: f64, step_um: f64) -> Result<Self, OpticsError> {
-        let parts = ((last_um - first_um) / step_um).round();
-        let fits = (first_um + parts * step_um - last_um).abs() <= 1e-6 * step_um;
-        if !(first_um > 0.0 && last_um > first_um && step_um > 0.0 && parts <= 1e5 && fits) {
-            return Err(OpticsError::Settings(format!(
-                "diameters from {first_um} to {last_um} µm by {step_um} µm; valid: 0 < first < last, a step that divides \
-                 their distance into at most 100000 parts"
-            )));
-        }
-        Ok(Self { first_um, step_um, count: parts as usize + 1 })
-    }
-
-    /// The grid of Sec. 5.3 for a range of diameters in µm: steps of 0.1 µm.
-    ///
-    /// # Errors
-    /// As [`DiameterGrid::new`].
-    pub fn fine(range_um: [f64; 2]) -> Result<Self, OpticsError> {
-        Self::new(range_um[0], range_um[1], 0.1)
-    }
-
-    /// Number of diameters.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Diameter `i` in µm.
-    #[must_use]
-    pub fn diameter_um(&self, i: usize) -> f64 {
-        self.first_um + self.step_um * i as f64
-    }
-
-    /// Weight of diameter `i` in the trapezoidal rule, in µm.
-    #[must_use]
-    pub fn weight_um(&self, i: usize) -> f64 {
-        if i == 0 || i + 1 == self.count { 0.5 * self.step_um } else { self.step_um }
-    }
-
-    /// ∫ f(d) dd over the grid by the trapezoidal rule, d in µm.
-    #[must_use]
-    pub fn integrate(&self, f: impl Fn(f64) -> f64) -> f64 {
-        (0..self.count).map(|i| self.weight_um(i) * f(self.diameter_um(i))).sum()
-    }
-
-    /// First, last and step in µm: what identifies the grid.
-    #[must_use]
-    pub fn bounds_um(&self) -> [f64; 3] {
-        [self.first_um, self.diameter_um(self.count - 1), self.step_um]
     }
 }
 
@@ -130,18 +76,5 @@ mod tests {
         let mean = grid.integrate(|d| d * lognormal(d, 2.0, 0.5));
         assert!((mean / exp(2.0 + 0.125) - 1.0).abs() < 1e-6);
         assert_eq!(lognormal(0.0, 2.0, 0.5), 0.0);
-    }
-
-    #[test]
-    fn grids_hold_their_ends() {
-        let grid = DiameterGrid::fine([0.5, 60.0]).unwrap();
-        assert_eq!(grid.count(), 596);
-        assert!((grid.diameter_um(595) - 60.0).abs() < 1e-12);
-        assert!((grid.integrate(|_| 1.0) - 59.5).abs() < 1e-10);
-        for (a, b, c) in
-            [(0.0, 1.0, 0.1), (2.0, 1.0, 0.1), (1.0, 2.0, 0.3), (1.0, 2.0, f64::NAN), (1.0, 2.0, -0.1)]
-        {
-            assert!(DiameterGrid::new(a, b, c).is_err(), "{a} {b} {c}");
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! What a user of this crate can do wrong.
 
 use fog_core::optics_table::OpticsTableError;
+use fog_core::phase::PhaseError;
 use fog_core::profile::ProfileError;
 
 /// Why an optical quantity was refused: the kind of mistake and the offending input.
@@ -39,12 +40,36 @@ pub enum OpticsError {
         /// The value found and what is expected instead.
         problem: String,
     },
+    /// Measurements that read well but from which no fog model can be fitted.
+    #[error("{file}: {problem}")]
+    Fit {
+        /// Name of the measurements' file as given by the caller.
+        file: String,
+        /// What is missing, and what would do.
+        problem: String,
+    },
+    /// Parameters or rows that make no droplet spectrum.
+    #[error("droplet spectrum: {0}")]
+    Distribution(String),
+    /// A name that is in no list.
+    #[error("unknown {what} `{name}`; expected one of {known}")]
+    UnknownName {
+        /// What the name is for.
+        what: &'static str,
+        /// What was given.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// Axes of a table that do not fit each other or do not ascend.
     #[error("optics table settings: {0}")]
     Settings(String),
     /// The table refused its values.
     #[error(transparent)]
     Table(#[from] OpticsTableError),
+    /// An analytic phase function refused its parameters.
+    #[error(transparent)]
+    Phase(#[from] PhaseError),
     /// The profile refused its values.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -55,5 +80,10 @@ pub(crate) fn check_range(what: &'static str, value: f64, low: f64, high: f64) -
     if (low..=high).contains(&value) {
         return Ok(());
     }
-    Err(OpticsError::Range { what, value, valid: format!("{low} to {high}") })
+    Err(OpticsError::Range { what, value, valid: format!("{} to {}", short(low), short(high)) })
+}
+
+/// `1e6` rather than `1000000`, `1e-9` rather than `0.000000001`.
+pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e6).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
 }

@@ -1,16 +1,15 @@
 //! Fog layers: extinction and albedo by altitude and wavelength, and what the paper derives from them.
 
 use crate::advection::AdvectionModel;
+use crate::droplets::DropletLayer;
 use crate::error::{OpticsError, check_range};
+use crate::vertical::NODES;
 use crate::visibility::sigma_t_from_mor;
 use fog_core::optics_table::{OpticsTable, OpticsView};
 use fog_core::profile::ExtinctionProfile;
 
 /// Wavelength in nm at which visibilities, means and extremes are taken.
 pub const REFERENCE_NM: f64 = 550.0;
-
-/// Altitudes of an advection layer: enough for 1e-5 of σ_t with linear interpolation.
-const ADVECTION_NODES: usize = 1025;
 
 /// A horizontally even layer: σ_t and albedo at ascending altitudes over its datum, linear between them, nothing outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +22,30 @@ pub struct FogLayer {
     albedo: Vec<f64>,
 }
 
-/// The advection fog of `model` with height `height_m`, its number of droplets multiplied by `number_density_scale`.
+/// The layer of a fog of droplets, by the table of its spectra ([`crate::table::build`]).
 ///
-/// σ_t(z, λ) = N(ζ, H) C_ext(ζ, λ) at 1025 altitudes, C from `table` by cubic interpolation in ζ; where the polynomial of
-/// N is negative, N = 0. Wavelengths are those of the table.
+/// σ_t(z, λ) = N(ζ) C_ext(ζ, λ) at 1025 altitudes, C from `table` by cubic interpolation in ζ. Wavelengths are those of the
+/// table.
+#[must_use]
+pub fn droplets(table: &OpticsTable, fog: &DropletLayer) -> FogLayer {
+    let view = table.view();
+    let last = NODES - 1;
+    let (mut altitude_m, mut sigma_t, mut albedo) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..=last {
+        let zeta = i as f64 / last as f64;
+        let n = fog.number_density_1_m3(zeta);
+        altitude_m.push(fog.height_m() * zeta);
+        for l in 0..view.wavelengths_nm.len() {
+            let cross = cross_sections(&view, zeta, l);
+            sigma_t.push(n * cross.c_ext_m2);
+            albedo.push((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0));
+        }
+    }
+    FogLayer { altitude_m, wavelengths_nm: view.wavelengths_nm.to_vec(), sigma_t, albedo }
+}
+
+/// The advection fog of `model` with height `height_m`, its number of droplets multiplied by `number_density_scale`:
+/// [`droplets`] of [`DropletLayer::advection`].
 ///
 /// # Errors
 /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`], or the scale is not in 0 to 1e6.
@@ -36,22 +55,7 @@ pub fn advection(
     height_m: f64,
     number_density_scale: f64,
 ) -> Result<FogLayer, OpticsError> {
-    model.check_height(height_m)?;
-    check_range("number_density_scale", number_density_scale, 0.0, 1e6)?;
-    let view = table.view();
-    let last = ADVECTION_NODES - 1;
-    let (mut altitude_m, mut sigma_t, mut albedo) = (Vec::new(), Vec::new(), Vec::new());
-    for i in 0..=last {
-        let zeta = i as f64 / last as f64;
-        let n = number_density_scale * model.number_density_1_m3(zeta, height_m);
-        altitude_m.push(height_m * zeta);
-        for l in 0..view.wavelengths_nm.len() {
-            let cross = cross_sections(&view, zeta, l);
-            sigma_t.push(n * cross.c_ext_m2);
-            albedo.push((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0));
-        }
-    }
-    Ok(FogLayer { altitude_m, wavelengths_nm: view.wavelengths_nm.to_vec(), sigma_t, albedo })
+    Ok(droplets(table, &DropletLayer::advection(model, height_m)?.scaled(number_density_scale)?))
 }
 
 /// A layer with the same `sigma_t_1_m` and single-scattering albedo from its base to `height_m`, at every wavelength.
@@ -83,17 +87,26 @@ pub fn linear_gradient(
 /// # Errors
 /// If there are fewer than two rows, they do not ascend, or a value is out of range.
 pub fn layered(rows: &[(f64, f64)], albedo: f64) -> Result<FogLayer, OpticsError> {
-    let layer = FogLayer {
-        altitude_m: rows.iter().map(|r| r.0).collect(),
-        wavelengths_nm: vec![REFERENCE_NM],
-        sigma_t: rows.iter().map(|r| r.1).collect(),
-        albedo: vec![albedo; rows.len()],
-    };
-    layer.profile(0.0)?; // makes every check
-    Ok(layer)
+    let (altitude_m, sigma_t) = rows.iter().copied().unzip();
+    FogLayer::new(altitude_m, vec![REFERENCE_NM], sigma_t, vec![albedo; rows.len()])
 }
 
 impl FogLayer {
+    /// A layer from rows: `sigma_t_1_m` and `albedo` are \[altitude\]\[wavelength\].
+    ///
+    /// # Errors
+    /// If the rows are too few, do not ascend or hold values out of range.
+    pub(crate) fn new(
+        altitude_m: Vec<f64>,
+        wavelengths_nm: Vec<f64>,
+        sigma_t: Vec<f64>,
+        albedo: Vec<f64>,
+    ) -> Result<Self, OpticsError> {
+        let layer = Self { altitude_m, wavelengths_nm, sigma_t, albedo };
+        layer.profile(0.0)?; // makes every check
+        Ok(layer)
+    }
+
     /// Altitudes of the rows in m over the datum, ascending.
     #[must_use]
     pub fn altitude_m(&self) -> &[f64] {
@@ -236,4 +249,19 @@ pub(crate) fn cross_sections(view: &OpticsView<'_>, zeta: f64, l: usize) -> Cros
         sum.g += weight * view.g[cell];
     }
     sum
+}
+
+/// [`cross_sections`] between the table's wavelengths, linear as a layer is; the nearest column beyond the ends.
+pub(crate) fn cross_sections_at(view: &OpticsView<'_>, zeta: f64, wavelength_nm: f64) -> CrossSections {
+    let w = view.wavelengths_nm;
+    let upper = w.partition_point(|&nm| nm <= wavelength_nm).clamp(1, w.len().max(2) - 1).min(w.len() - 1);
+    let lower = upper.saturating_sub(1);
+    let t = if upper == lower { 0.0 } else { (wavelength_nm - w[lower]) / (w[upper] - w[lower]) };
+    let (a, b) = (cross_sections(view, zeta, lower), cross_sections(view, zeta, upper));
+    let mix = |a: f64, b: f64| a + (b - a) * t.clamp(0.0, 1.0);
+    CrossSections {
+        c_ext_m2: mix(a.c_ext_m2, b.c_ext_m2),
+        c_sca_m2: mix(a.c_sca_m2, b.c_sca_m2),
+        g: mix(a.g, b.g),
+    }
 }

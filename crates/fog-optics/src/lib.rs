@@ -1,5 +1,5 @@
 //! Droplets → optics → visibility: refractive index of water, Mie series, droplet-size distributions, polydisperse
-//! averages, optics tables, fog layers by altitude and visibility laws.
+//! averages, optics tables, phase functions, fog layers by altitude and visibility laws.
 //!
 //! No file access, clock, environment, printing or global state (DESIGN invariant 1): texts come in as arguments, source
 //! tables are compiled in. Lengths are in metres unless a name says `_um` (diameters) or `_nm` (wavelengths).
@@ -16,14 +16,32 @@
 //! ```
 
 pub mod advection;
+pub mod catalogue;
+pub mod coefficient;
+mod csv;
 pub mod distribution;
+pub mod droplet_table;
+pub mod droplets;
 pub mod error;
+pub mod fit;
+pub mod intensities;
+pub mod jendersie_deon;
 pub mod layer;
 pub mod layer_csv;
+pub mod lidar;
+pub mod mean_cosine;
 pub mod mean_diameter;
 pub mod mie;
+pub mod parcel;
+pub mod phase_function;
+pub mod phenomena;
 pub mod polydisperse;
+pub mod size;
+pub mod spectrum_csv;
 pub mod state;
 pub mod table;
+pub mod vertical;
 pub mod visibility;
 pub mod water;
+
+pub use fog_core::patchiness;

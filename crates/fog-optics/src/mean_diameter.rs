@@ -10,6 +10,9 @@ use fog_core::math::f64::{asin, cos};
 use fog_core::optics_table::{OpticsTable, OpticsTableParts};
 use fog_core::phase_grid;
 
+/// Wavelength in nm at which the renderer takes this phase function.
+pub const WAVELENGTH_NM: f64 = 550.0;
+
 /// Mean diameter in µm of the layer's distributions: the number-mean diameter of each spectrum, averaged over altitude
 /// with equal weights (trapezoidal rule over ζ = 0, 1/64, … 1). The paper does not say how it averages.
 #[must_use]
@@ -24,14 +27,21 @@ pub fn layer_mean_diameter_um(model: &AdvectionModel) -> f64 {
     sum / f64::from(steps)
 }
 
-/// Table with one row and one wavelength: the Mie phase function of [`layer_mean_diameter_um`], computed at 0°, 1°, … 180°
-/// and linear in the angle between them, as the paper tabulates it (so its forward peak is blunt and its normalisation is
-/// that of the interpolation). Cross sections and g are those of that one diameter, from the series.
+/// [`diameter_table`] of [`layer_mean_diameter_um`].
 ///
 /// # Errors
-/// If the wavelength (nm) is outside [`water::WAVELENGTH_RANGE_NM`].
+/// As there.
 pub fn mean_diameter_table(model: &AdvectionModel, wavelength_nm: f64) -> Result<OpticsTable, OpticsError> {
-    let d_um = layer_mean_diameter_um(model);
+    diameter_table(layer_mean_diameter_um(model), wavelength_nm)
+}
+
+/// Table with one row and one wavelength: the Mie phase function of one diameter in µm, computed at 0°, 1°, … 180° and
+/// linear in the angle between them, as the paper tabulates it (so its forward peak is blunt and its normalisation is that
+/// of the interpolation). Cross sections and g are those of that one diameter, from the series.
+///
+/// # Errors
+/// If the wavelength (nm) is outside [`water::WAVELENGTH_RANGE_NM`], or the droplet outside the range of [`crate::mie`].
+pub fn diameter_table(d_um: f64, wavelength_nm: f64) -> Result<OpticsTable, OpticsError> {
     let series = MieSeries::new(water::refractive_index(wavelength_nm)?, PI * d_um * 1e3 / wavelength_nm)?;
     let q = series.efficiencies();
     let area_m2 = 0.25 * PI * d_um * d_um * 1e-12;

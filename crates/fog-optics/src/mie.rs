@@ -5,14 +5,19 @@
 //! amplitudes S1 (perpendicular) and S2 (parallel), for which dC_sca/dΩ = (|S1|² + |S2|²) / (2 k₀²) in unpolarised
 //! light, k₀ = 2π/λ.
 //!
-//! Valid for x from 1e-6 to 1e5, n from 0.1 to 10 and k from 0 to 10.
+//! Valid for x from 1e-6 to 1e5, n from 0.1 to 10 and k from 0 to 10: nothing overflows there, 0 ≤ q_abs and q_sca ≤ q_ext,
+//! |g| ≤ 1. Accuracy against sums in 60 and more digits over that range (`tests/data/mie_corners.csv`): efficiencies and g
+//! to 1e-12, q_back to 1e-10 up to x = 1e4 and 2e-9 beyond (it is a small rest of a large sum). Where the sphere hardly
+//! differs from its surroundings, all are good to about 2e-16 / |m − 1|.
 
 mod angles;
+mod batch;
 mod coefficients;
 
-pub(crate) use angles::{BLOCK, GROUP, KernelTerm, LANES, kernel_terms, mixture_block};
+pub(crate) use angles::{BLOCK, GROUP, GroupTerms, KernelTerm, LANES, group_terms, mixture_block, orders};
 
 use crate::error::{OpticsError, check_range};
+pub use batch::{Batch, batch};
 pub use num_complex::Complex64;
 
 /// What a sphere does to a plane wave, as fractions of its geometric cross section πd²/4.
@@ -27,7 +32,7 @@ pub struct Efficiencies {
     /// Backscattering as Bohren & Huffman and miepython define it: 4 |S1(180°)|² / x² (4π times the radar convention of
     /// a differential cross section over the geometric one).
     pub q_back: f64,
-    /// Asymmetry parameter, the mean cosine of the scattering angle (B&H Sec. 4.5).
+    /// Asymmetry parameter, the mean cosine of the scattering angle (B&H Sec. 4.5); 0 where nothing is scattered.
     pub g: f64,
 }
 
@@ -101,7 +106,7 @@ impl MieSeries {
             q_sca,
             q_abs: self.q_abs,
             q_back: back.norm_sqr() / (self.x * self.x),
-            g: 2.0 * cosine / sca,
+            g: if sca > 0.0 { (2.0 * cosine / sca).clamp(-1.0, 1.0) } else { 0.0 },
         }
     }
 

@@ -2,7 +2,9 @@
 
 use crate::distribution::DiameterGrid;
 use crate::error::OpticsError;
-use crate::mie::{BLOCK, GROUP, KernelTerm, LANES, MieSeries, kernel_terms, mixture_block};
+use crate::mie::{
+    BLOCK, GROUP, GroupTerms, KernelTerm, LANES, MieSeries, group_terms, mixture_block, orders,
+};
 use crate::water;
 use fog_core::math::PI;
 use fog_core::optics_table::OpticsTableParts;
@@ -52,7 +54,7 @@ impl DropletSpectra {
 
 /// One group of neighbouring diameters at one wavelength.
 struct Group {
-    terms: [Vec<KernelTerm>; GROUP],
+    terms: GroupTerms,
     c_ext_m2: [f64; GROUP],
     c_sca_m2: [f64; GROUP],
     g: [f64; GROUP],
@@ -105,9 +107,8 @@ pub fn average(
         }
 
         // Intensities: blocks of angles are independent of each other.
-        let longest = groups.iter().map(|g| g.terms[0].len()).max().unwrap_or(0);
-        let orders: Vec<[f64; 2]> = (1..=longest).map(|n| [n as f64, (n + 1) as f64 / n as f64]).collect();
-        let terms: Vec<&[Vec<KernelTerm>; GROUP]> = groups.iter().map(|g| &g.terms).collect();
+        let orders = orders(groups.iter().map(|g| g.terms.len()).max().unwrap_or(0));
+        let terms: Vec<&[[KernelTerm; GROUP]]> = groups.iter().map(|g| &g.terms[..]).collect();
         let sums: Vec<Vec<[[f64; LANES]; BLOCK]>> = (blocks.par_iter())
             .map(|mu| {
                 let mut out = vec![[[0.0; LANES]; BLOCK]; rows];
@@ -151,12 +152,9 @@ fn mie_groups(diameters: &DiameterGrid, wavelength_nm: f64) -> Result<Vec<Group>
     (0..count.div_ceil(GROUP))
         .into_par_iter()
         .map(|g| {
-            let mut group = Group {
-                terms: core::array::from_fn(|_| Vec::new()),
-                c_ext_m2: [0.0; GROUP],
-                c_sca_m2: [0.0; GROUP],
-                g: [0.0; GROUP],
-            };
+            let mut group =
+                Group { terms: Vec::new(), c_ext_m2: [0.0; GROUP], c_sca_m2: [0.0; GROUP], g: [0.0; GROUP] };
+            let mut all = Vec::with_capacity(GROUP);
             for d in 0..GROUP.min(count - g * GROUP) {
                 let d_um = diameters.diameter_um(g * GROUP + d);
                 let series = MieSeries::new(m, PI * d_um * 1e3 / wavelength_nm)?;
@@ -165,12 +163,9 @@ fn mie_groups(diameters: &DiameterGrid, wavelength_nm: f64) -> Result<Vec<Group>
                 group.c_ext_m2[d] = q.q_ext * area_m2;
                 group.c_sca_m2[d] = q.q_sca * area_m2;
                 group.g[d] = q.g;
-                group.terms[d] = kernel_terms(&series);
+                all.push(series);
             }
-            let longest = group.terms.iter().map(Vec::len).max().unwrap_or(0);
-            for terms in &mut group.terms {
-                terms.resize(longest, [0.0; 4]);
-            }
+            group.terms = group_terms(&all);
             Ok(group)
         })
         .collect()

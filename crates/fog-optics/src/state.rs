@@ -1,8 +1,9 @@
 //! What the fog is at one altitude: the numbers that a data set records with a frame.
 
 use crate::advection::AdvectionModel;
+use crate::droplets::DropletLayer;
 use crate::error::OpticsError;
-use crate::layer::{FogLayer, REFERENCE_NM, cross_sections};
+use crate::layer::{FogLayer, REFERENCE_NM, cross_sections_at};
 use crate::visibility::mor_m;
 use fog_core::optics_table::OpticsTable;
 
@@ -29,10 +30,33 @@ pub struct FogState {
 }
 
 impl FogState {
+    /// The fog of [`crate::layer::droplets`] at an altitude in m over its base.
+    #[must_use]
+    pub fn droplets(table: &OpticsTable, fog: &DropletLayer, altitude_m: f64) -> Self {
+        let zeta = altitude_m / fog.height_m();
+        let n = fog.number_density_1_m3(zeta);
+        if n.is_nan() || n <= 0.0 {
+            return Self::default();
+        }
+        // Linear in wavelength between the table's columns, as the layer is.
+        let cross = cross_sections_at(&table.view(), zeta, REFERENCE_NM);
+        let moments = fog.spectra().distribution(zeta).moments();
+        Self {
+            sigma_t_550_1_m: n * cross.c_ext_m2,
+            albedo: Some((cross.c_sca_m2 / cross.c_ext_m2).clamp(0.0, 1.0)),
+            g: Some(cross.g),
+            mor_m: Some(mor_m(n * cross.c_ext_m2)),
+            liquid_water_content_g_m3: Some(n * moments.mass_g),
+            number_density_1_m3: Some(n * moments.share_in_range),
+            effective_radius_um: Some(moments.effective_radius_um),
+            mean_diameter_um: Some(moments.mean_diameter_um),
+        }
+    }
+
     /// The advection fog of [`crate::layer::advection`] at an altitude in m over its base.
     ///
     /// # Errors
-    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`].
+    /// If the height is outside [`crate::advection::HEIGHT_RANGE_M`], or the scale is not in 0 to 1e6.
     pub fn advection(
         table: &OpticsTable,
         model: &AdvectionModel,
@@ -40,34 +64,8 @@ impl FogState {
         number_density_scale: f64,
         altitude_m: f64,
     ) -> Result<Self, OpticsError> {
-        model.check_height(height_m)?;
-        let zeta = altitude_m / height_m;
-        let n = number_density_scale * model.number_density_1_m3(zeta, height_m);
-        if n.is_nan() || n <= 0.0 {
-            return Ok(Self::default());
-        }
-        let view = table.view();
-
-        // Linear in wavelength between the table's columns, as the layer is.
-        let w = view.wavelengths_nm;
-        let upper = w.partition_point(|&nm| nm <= REFERENCE_NM).clamp(1, w.len().max(2) - 1).min(w.len() - 1);
-        let lower = upper.saturating_sub(1);
-        let t = if upper == lower { 0.0 } else { (REFERENCE_NM - w[lower]) / (w[upper] - w[lower]) };
-        let (a, b) = (cross_sections(&view, zeta, lower), cross_sections(&view, zeta, upper));
-        let mix = |a: f64, b: f64| a + (b - a) * t.clamp(0.0, 1.0);
-
-        let c_ext = mix(a.c_ext_m2, b.c_ext_m2);
-        let moments = model.moments(zeta);
-        Ok(Self {
-            sigma_t_550_1_m: n * c_ext,
-            albedo: Some((mix(a.c_sca_m2, b.c_sca_m2) / c_ext).clamp(0.0, 1.0)),
-            g: Some(mix(a.g, b.g)),
-            mor_m: Some(mor_m(n * c_ext)),
-            liquid_water_content_g_m3: Some(n * moments.mass_g),
-            number_density_1_m3: Some(n * moments.share_in_range),
-            effective_radius_um: Some(moments.effective_radius_um),
-            mean_diameter_um: Some(moments.mean_diameter_um),
-        })
+        let fog = DropletLayer::advection(model, height_m)?.scaled(number_density_scale)?;
+        Ok(Self::droplets(table, &fog, altitude_m))
     }
 
     /// A layer without droplets in mind, at an altitude in m over its datum; `g` of its phase function, where it has one.

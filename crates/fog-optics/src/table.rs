@@ -1,7 +1,8 @@
-//! The optics table of a fog model, and the bytes that name it in a cache.
+//! The optics table of a fog's droplets, and the bytes that name it in a cache.
 
 use crate::advection::AdvectionModel;
 use crate::distribution::DiameterGrid;
+use crate::droplets::Spectra;
 use crate::error::{OpticsError, check_range};
 use crate::polydisperse::{DropletSpectra, average};
 use crate::water;
@@ -9,7 +10,7 @@ use fog_core::optics_table::OpticsTable;
 use fog_core::phase_grid::NODES;
 
 /// Raised whenever the numbers in a table change for the same settings: old caches are then not found.
-pub const KERNEL_VERSION: u32 = 1;
+pub const KERNEL_VERSION: u32 = 2;
 
 /// The axes of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +27,18 @@ impl TableSettings {
     /// The table of the renderer: ζ = 0, 1/32, … 1; 375, 400, … 800 nm; the model's diameters.
     #[must_use]
     pub fn visible(model: &AdvectionModel) -> Self {
-        Self {
-            zeta: (0..=32).map(|i| f64::from(i) / 32.0).collect(),
-            wavelengths_nm: (0..18).map(|i| 375.0 + 25.0 * f64::from(i)).collect(),
-            diameters: *model.diameters(),
+        let zeta = (0..=32).map(|i| f64::from(i) / 32.0).collect();
+        Self { zeta, wavelengths_nm: visible_nm(), diameters: *model.diameters() }
+    }
+
+    /// As [`TableSettings::visible`], for any spectra: one row if they are the same at every altitude.
+    #[must_use]
+    pub fn visible_of(spectra: &Spectra) -> Self {
+        match spectra {
+            Spectra::Advection(model) => Self::visible(model),
+            Spectra::Same(distribution) => {
+                Self { zeta: vec![0.0], wavelengths_nm: visible_nm(), diameters: *distribution.grid() }
+            }
         }
     }
 
@@ -48,14 +57,36 @@ impl TableSettings {
     /// them: cross sections are per droplet.
     #[must_use]
     pub fn fingerprint_bytes(&self, model: &AdvectionModel) -> Vec<u8> {
-        let mut fingerprint = Fingerprint::new("advection table");
-        fingerprint.numbers(&self.zeta);
-        fingerprint.numbers(&self.wavelengths_nm);
-        fingerprint.numbers(&self.diameters.bounds_um());
+        let mut fingerprint = self.fingerprint("advection table");
         for coefficients in model.shape_coefficients() {
             fingerprint.numbers(coefficients);
         }
         fingerprint.bytes
+    }
+
+    /// As [`TableSettings::fingerprint_bytes`], for any spectra. One that is the same at every altitude is known by its
+    /// density at the table's diameters, wherever it came from.
+    #[must_use]
+    pub fn fingerprint_bytes_of(&self, spectra: &Spectra) -> Vec<u8> {
+        match spectra {
+            Spectra::Advection(model) => self.fingerprint_bytes(model),
+            Spectra::Same(distribution) => {
+                let mut fingerprint = self.fingerprint("droplet table");
+                let d = &self.diameters;
+                let densities: Vec<f64> =
+                    (0..d.count()).map(|i| distribution.density_1_um(d.diameter_um(i))).collect();
+                fingerprint.numbers(&densities);
+                fingerprint.bytes
+            }
+        }
+    }
+
+    fn fingerprint(&self, kind: &str) -> Fingerprint {
+        let mut fingerprint = Fingerprint::new(kind);
+        fingerprint.numbers(&self.zeta);
+        fingerprint.numbers(&self.wavelengths_nm);
+        fingerprint.numbers(&self.diameters.bounds_um());
+        fingerprint
     }
 }
 
@@ -84,13 +115,15 @@ impl Fingerprint {
     }
 }
 
-/// Builds the table of `model`: cross sections, mean cosines and phase functions by relative altitude and wavelength, as
-/// [`average`] defines them.
-///
-/// `progress` is told the share that is done, in (0, 1].
+/// Wavelengths of the renderer's tables in nm.
+fn visible_nm() -> Vec<f64> {
+    (0..18).map(|i| 375.0 + 25.0 * f64::from(i)).collect()
+}
+
+/// Builds the table of an advection model: [`build`] of its spectra.
 ///
 /// # Errors
-/// If an axis is empty, does not ascend or leaves its range.
+/// As there.
 pub fn build_table(
     model: &AdvectionModel,
     settings: &TableSettings,
@@ -98,13 +131,43 @@ pub fn build_table(
 ) -> Result<OpticsTable, OpticsError> {
     settings.check()?;
     let density = |zeta: f64, d_um: f64| model.shape(zeta).density_1_um(d_um);
-    let spectra = DropletSpectra::new(&settings.zeta, &settings.diameters, density)?;
+    build_from(settings, density, progress)
+}
+
+/// Builds the table of droplet spectra: cross sections, mean cosines and phase functions by relative altitude and
+/// wavelength, as [`average`] defines them.
+///
+/// `progress` is told the share that is done, in (0, 1].
+///
+/// # Errors
+/// If an axis is empty, does not ascend or leaves its range, or a row has no droplets at the table's diameters.
+pub fn build(
+    spectra: &Spectra,
+    settings: &TableSettings,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<OpticsTable, OpticsError> {
+    match spectra {
+        Spectra::Advection(model) => build_table(model, settings, progress),
+        Spectra::Same(distribution) => {
+            settings.check()?;
+            build_from(settings, |_, d_um| distribution.density_1_um(d_um), progress)
+        }
+    }
+}
+
+fn build_from(
+    settings: &TableSettings,
+    density_1_um: impl Fn(f64, f64) -> f64,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<OpticsTable, OpticsError> {
+    let spectra = DropletSpectra::new(&settings.zeta, &settings.diameters, density_1_um)?;
     Ok(OpticsTable::new(&average(&spectra, &settings.wavelengths_nm, progress)?)?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::size::SizeDistribution;
 
     #[test]
     fn fingerprint_changes_with_everything_but_the_number_of_droplets() {
@@ -126,6 +189,28 @@ mod tests {
         let mut other = settings;
         other.diameters = DiameterGrid::new(0.5, 60.0, 0.7).unwrap();
         assert_ne!(base, other.fingerprint_bytes(&model));
+    }
+
+    #[test]
+    fn spectra_that_are_the_same_everywhere_have_a_row_and_a_fingerprint_of_their_own() {
+        let spectra = |r, v| Spectra::Same(SizeDistribution::gamma(r, v).unwrap());
+        let fingerprint = |s: &Spectra| TableSettings::visible_of(s).fingerprint_bytes_of(s);
+        let five = spectra(5.0, 0.1);
+        assert_eq!(fingerprint(&five), fingerprint(&five.clone()));
+        assert_ne!(fingerprint(&five), fingerprint(&spectra(5.0, 0.101)));
+        assert_ne!(fingerprint(&five), fingerprint(&spectra(5.001, 0.1)));
+        assert_eq!(TableSettings::visible_of(&five).zeta, [0.0]);
+        // A formula and a name that mean the same droplets share a table.
+        let c1 = crate::catalogue::named("deirmendjian_cloud_c1").unwrap();
+        let radiation = crate::catalogue::named("shettle_fenn_radiation_heavy").unwrap();
+        let fingerprints = [c1, radiation].map(|named| fingerprint(&Spectra::Same(named.distribution)));
+        assert_eq!(fingerprints[0], fingerprints[1]);
+
+        let model = AdvectionModel::arcata().unwrap();
+        let settings = TableSettings::visible(&model);
+        let advection = Spectra::Advection(model.clone());
+        assert_eq!(TableSettings::visible_of(&advection), settings);
+        assert_eq!(fingerprint(&advection), settings.fingerprint_bytes(&model));
     }
 
     #[test]

@@ -1,12 +1,16 @@
 //! Layers: the paper's rules, scaling to a visibility, and states.
 
+use fog_core::phase_grid;
 use fog_optics::advection::AdvectionModel;
+use fog_optics::catalogue;
 use fog_optics::distribution::DiameterGrid;
+use fog_optics::droplets::{DropletLayer, Spectra};
 use fog_optics::error::OpticsError;
 use fog_optics::layer::{self, FogLayer};
 use fog_optics::layer_csv::parse_layers;
 use fog_optics::state::FogState;
-use fog_optics::table::{TableSettings, build_table};
+use fog_optics::table::{TableSettings, build, build_table};
+use fog_optics::vertical::VerticalProfile;
 use fog_optics::visibility::mor_m;
 use std::sync::LazyLock;
 
@@ -76,6 +80,37 @@ fn rows_become_a_layer() {
     assert!(layer::advection(&TABLE, &MODEL, 0.0, 1.0).is_err());
     assert!(layer::advection(&TABLE, &MODEL, 100.0, f64::NAN).is_err());
     assert!(fog.scaled(-1.0).is_err());
+}
+
+#[test]
+fn a_named_fog_has_its_extinction_water_and_phase_function() {
+    let named = catalogue::named("shettle_fenn_radiation_moderate").unwrap();
+    let spectra = Spectra::Same(named.distribution.clone());
+    let settings =
+        TableSettings { wavelengths_nm: vec![450.0, 550.0, 650.0], ..TableSettings::visible_of(&spectra) };
+    let table = build(&spectra, &settings, &|_| ()).unwrap();
+    let thinning = VerticalProfile::thinning(1.0).unwrap();
+    let fog = DropletLayer::new(spectra, thinning, named.number_density_1_m3, 40.0).unwrap();
+    let layer = layer::droplets(&table, &fog);
+
+    // Half way up, where a linear profile has its mean: the catalogue's fog itself.
+    let optics = named.distribution.optics(550.0).unwrap();
+    let sigma_t = named.number_density_1_m3 * optics.c_ext_m2;
+    assert!((layer.sigma_t_at(20.0) / sigma_t - 1.0).abs() < 1e-9);
+    assert!((layer.mean_sigma_t() / sigma_t - 1.0).abs() < 1e-9);
+    assert!((layer.sigma_t_at(0.0) / sigma_t - 2.0).abs() < 1e-5 && layer.sigma_t_at(40.0) == 0.0);
+    let state = FogState::droplets(&table, &fog, 20.0);
+    assert!((state.sigma_t_550_1_m / sigma_t - 1.0).abs() < 1e-9);
+    assert!((state.g.unwrap() - optics.g).abs() < 1e-12);
+    assert!((state.liquid_water_content_g_m3.unwrap() / 0.0156 - 1.0).abs() < 5e-3);
+    assert!((state.effective_radius_um.unwrap() - 3.0).abs() < 1e-3);
+    assert!((state.number_density_1_m3.unwrap() / 2e8 - 1.0).abs() < 1e-5);
+
+    // The table's phase function is normalised and has the g of the series.
+    let (view, nodes) = (table.view(), phase_grid::nodes());
+    let p = |i: usize| f64::from(view.phase_node(0, 1, i));
+    assert!((phase_grid::integral(&nodes, p) - 1.0).abs() < 1e-5);
+    assert!((phase_grid::mean_cosine(&nodes, p) - optics.g).abs() < 1e-4);
 }
 
 #[test]

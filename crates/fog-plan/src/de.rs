@@ -234,9 +234,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
     }
 
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, DeError> {
-        let Some(node) = self.value else {
-            return Err(de::Error::custom(format!("`{0}` needs a value: {{{0}: …}}", self.name)));
-        };
+        let Some(node) = self.value else { return seed.deserialize(Absent(self.name)) };
         seed.deserialize(NodeReader { node, key: self.name }).map_err(|e| e.at(node).within(self.name))
     }
 
@@ -252,5 +250,25 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
     ) -> Result<V::Value, DeError> {
         let node = self.value.unwrap_or(self.reader.node);
         NodeReader { node, key: self.name }.deserialize_struct("", fields, visitor)
+    }
+}
+
+/// The value of a variant that was written as its name alone: none, and an error for every type that needs one.
+struct Absent<'de>(&'de str);
+
+impl<'de> Deserializer<'de> for Absent<'de> {
+    type Error = DeError;
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, DeError> {
+        Err(de::Error::custom(format!("`{0}` needs a value: {{{0}: …}}", self.0)))
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DeError> {
+        visitor.visit_none()
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct enum identifier ignored_any
     }
 }

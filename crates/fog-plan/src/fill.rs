@@ -8,7 +8,7 @@ use crate::{
     origin::Origin,
     schema::{
         CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, RenderFile, SensorFile,
-        SunFile, SweepFile,
+        SunFile, SweepFile, VerticalFile,
     },
     validate::{DEFAULT_ALBEDO, DEFAULT_SCALE},
 };
@@ -36,6 +36,7 @@ pub(crate) fn fill_model(root: &mut Node) {
     let Some(Value::Text(model)) = fog.child("model").map(|node| node.value.clone()) else { return };
     match model.as_str() {
         "advection" => put(fog, "number_density_scale", &DEFAULT_SCALE),
+        "droplets" => put(fog, "vertical", &VerticalFile::Uniform),
         "homogeneous" | "linear_gradient" | "layered" => {
             put(fog, "single_scattering_albedo", &DEFAULT_ALBEDO)
         }

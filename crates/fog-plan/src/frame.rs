@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
+use crate::droplets::{DropletsSpec, VerticalSpec};
+
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameSpec {
@@ -60,6 +62,12 @@ pub struct FogSpec {
     pub model: FogModel,
     /// Where scattered light goes.
     pub phase: Phase,
+    /// What the droplets add up to. Not written where it is the default, so that it is no part of old digests.
+    #[serde(skip_serializing_if = "Coefficient::is_default")]
+    pub coefficient: Coefficient,
+    /// How `phase` `Mie` is sampled. Not written where it is the default.
+    #[serde(skip_serializing_if = "Sampling::is_default")]
+    pub sampling: Sampling,
     /// Scales extinction so that the layer has this visibility.
     pub visibility: Option<Visibility>,
     /// World height (y) of altitude 0, in metres; −500 to 9000.
@@ -78,6 +86,18 @@ pub enum FogModel {
         height_m: f64,
         /// Factor on the number density, above 0 up to 100.
         number_density_scale: f64,
+    },
+    /// Droplets of any spectrum, with any number by altitude.
+    Droplets {
+        /// Thickness of the layer in metres, 1 to 5000.
+        height_m: f64,
+        /// The spectrum.
+        droplets: DropletsSpec,
+        /// Droplets per m³ in the mean over altitude; absent: the number of the named or measured spectrum, or any if a
+        /// visibility is to be met.
+        number_density_1_m3: Option<f64>,
+        /// Number of droplets by altitude.
+        vertical: VerticalSpec,
     },
     /// The same extinction in the whole layer, at every wavelength.
     Homogeneous {
@@ -115,6 +135,7 @@ impl FogModel {
         match self {
             Self::None => "none",
             Self::Advection { .. } => "advection",
+            Self::Droplets { .. } => "droplets",
             Self::Homogeneous { .. } => "homogeneous",
             Self::LinearGradient { .. } => "linear_gradient",
             Self::Layered { .. } => "layered",
@@ -126,12 +147,70 @@ impl FogModel {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Phase {
-    /// Mie scattering of the advection model's droplets by altitude relative to the layer, and by wavelength.
+    /// Mie scattering of the fog's droplets by wavelength; of a model without droplets, and of advection, that of the
+    /// advection model's, by altitude relative to the layer too.
     Mie,
-    /// Henyey–Greenstein with this mean cosine, −0.999 to 0.999.
-    Hg(f64),
+    /// Henyey–Greenstein.
+    Hg(MeanCosine),
     /// Mie scattering of the mean droplet (the paper's table).
     MieMeanDiameter,
+    /// The closed form of Jendersie & d'Eon 2023.
+    JendersieDeon {
+        /// Diameter of the droplets in µm, above 0 up to 50; absent: the mean diameter of the advection model's droplets.
+        diameter_um: Option<f64>,
+    },
+}
+
+/// Mean cosine of a phase function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MeanCosine {
+    /// −0.999 to 0.999; serialises to this number.
+    Value(f64),
+    /// The mean over altitude of the droplets' g at 550 nm, weighted by what the layer scatters; serialises to `layer`.
+    Layer,
+}
+
+impl Serialize for MeanCosine {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Value(g) => serializer.serialize_f64(*g),
+            Self::Layer => serializer.serialize_str("layer"),
+        }
+    }
+}
+
+/// Scattering coefficient of a layer of droplets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coefficient {
+    /// ∫ n(d) C(d) dd over all droplets.
+    #[default]
+    Integral,
+    /// N·σ(d) averaged over diameters sampled by number (Kolářová, Lachiver & Wilkie 2024, Eq. 4).
+    Paper,
+}
+
+impl Coefficient {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// What `Phase::Mie` samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampling {
+    /// The phase function of all droplets together.
+    #[default]
+    Table,
+    /// That of one droplet, drawn with probability ∝ n(d) C_sca(d).
+    Diameter,
+}
+
+impl Sampling {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// A visibility to be met.
@@ -239,4 +318,6 @@ pub enum Output {
     Direct,
     /// Light that the fog scattered.
     Airlight,
+    /// Standard error of each pixel's luminance.
+    StandardError,
 }

@@ -13,6 +13,7 @@ mod check;
 mod de;
 mod de_error;
 mod diff;
+mod droplets;
 mod error;
 mod fill;
 mod frame;
@@ -30,10 +31,11 @@ mod validate;
 mod words;
 mod yaml;
 
+pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
 pub use frame::{
-    CameraSpec, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, Output, Phase, RenderSpec,
-    SceneSpec, SensorSpec, SunSpec, Visibility,
+    CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
+    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, SunSpec, Visibility,
 };
 pub use load::{load, parse};
 pub use origin::Origin;

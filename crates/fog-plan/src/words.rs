@@ -37,12 +37,14 @@ fn edits(a: &str, b: &str) -> usize {
 
 /// Unit named by a key's suffix: symbol for values, and word for what is expected.
 pub(crate) fn unit_of(key: &str) -> Option<(&'static str, &'static str)> {
-    const UNITS: [(&str, &str, &str); 5] = [
+    const UNITS: [(&str, &str, &str); 7] = [
+        ("_1_m3", "1/m³", "per cubic metre"),
         ("_1_m", "1/m", "per metre"),
         ("_m", "m", "metres"),
         ("_deg", "deg", "degrees"),
         ("_px", "px", "pixels"),
         ("_nm", "nm", "nanometres"),
+        ("_um", "µm", "micrometres"),
     ];
     UNITS.iter().find(|unit| key.ends_with(unit.0)).map(|unit| (unit.1, unit.2))
 }

@@ -22,7 +22,8 @@ fn unknown_keys() {
         errors("fog:\n  model: advection\n  heigth_m: 100\n"),
         [
             "configs/x.yaml:8:3: fog.heigth_m: unknown key; expected one of model, height_m, number_density_scale, \
-             sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, single_scattering_albedo, phase, visibility, datum_m; \
+             droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, \
+             single_scattering_albedo, phase, coefficient, sampling, visibility, datum_m; \
              did you mean `height_m`?"
         ]
     );
@@ -88,7 +89,8 @@ fn unknown_values() {
     assert_eq!(
         errors("fog: {model: advection, height_m: 9, phase: {hgg: 0.8}}\n"),
         [
-            "configs/x.yaml:6:45: fog.phase: unknown value \"hgg\"; expected one of mie, hg, mie_mean_diameter; \
+            "configs/x.yaml:6:45: fog.phase: unknown value \"hgg\"; expected one of mie, hg, mie_mean_diameter, \
+          jendersie_deon; \
           did you mean `hg`?"
         ]
     );
@@ -97,10 +99,30 @@ fn unknown_values() {
         ["configs/x.yaml:6:45: fog.phase: `hg` needs a value: {hg: …}"]
     );
     assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: {hg: own}}\n"),
+        ["configs/x.yaml:6:50: fog.phase.hg: expected a number or `layer`, found text \"own\""]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, phase: {jendersie_deon: {d_um: 3}}}\n"),
+        ["configs/x.yaml:6:63: fog.phase.jendersie_deon.d_um: unknown key; expected diameter_um"]
+    );
+    assert_eq!(
+        errors(
+            "fog: {model: advection, height_m: 9, phase: {mie: 3}, coefficient: papr, sampling: diametr}\n"
+        ),
+        [
+            "configs/x.yaml:6:45: fog.phase: `mie` takes no value",
+            "configs/x.yaml:6:68: fog.coefficient: unknown value \"papr\"; expected one of integral, paper; \
+             did you mean `paper`?",
+            "configs/x.yaml:6:84: fog.sampling: unknown value \"diametr\"; expected one of table, diameter; \
+             did you mean `diameter`?",
+        ]
+    );
+    assert_eq!(
         errors("fog: none\noutputs: [image, image, tua]\n"),
         [
             "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
-          transmittance, tau, direct, airlight; did you mean `tau`?"
+          transmittance, tau, direct, airlight, standard_error; did you mean `tau`?"
         ]
     );
     assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);
@@ -131,6 +153,39 @@ fn ranges() {
         errors("fog: {model: advection, height_m: 50, visibility: {mor_m: 300, altitude_m: 60}}\n"),
         ["configs/x.yaml:6:76: fog.visibility.altitude_m: 60 m is above the layer, whose height_m is 50 m"]
     );
+}
+
+#[test]
+fn optics_of_the_droplets() {
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, phase: {jendersie_deon: {diameter_um: 51}}}\n"),
+        [
+            "configs/x.yaml:6:77: fog.phase.jendersie_deon.diameter_um: 51 µm is out of range; valid: above 0 up to 50 µm"
+        ]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 50, phase: {hg: 0.83}, sampling: diameter}\n"),
+        [
+            "configs/x.yaml:6:68: fog.sampling: `diameter` draws droplets of the fog, which only `phase: mie` knows"
+        ]
+    );
+    for (keys, column, given) in [
+        ("model: homogeneous, height_m: 50, sigma_t_1_m: 0.1", 72, "sigma_t_1_m"),
+        (
+            "model: linear_gradient, height_m: 50, sigma_t_base_1_m: 0.1, sigma_t_top_1_m: 0.2",
+            103,
+            "sigma_t_base_1_m and sigma_t_top_1_m",
+        ),
+        ("model: layered, file: a.csv", 49, "file"),
+    ] {
+        assert_eq!(
+            errors(&format!("fog: {{{keys}, coefficient: paper}}\n")),
+            [format!(
+                "configs/x.yaml:6:{column}: fog.coefficient: is about the extinction that droplets add up to, but here \
+                 {given} says it"
+            )]
+        );
+    }
 }
 
 #[test]
@@ -172,6 +227,84 @@ fn keys_of_another_model() {
             "configs/x.yaml:6:82: fog.single_scattering_albedo: `single_scattering_albedo` belongs to models homogeneous, \
              linear_gradient, layered, not advection",
         ]
+    );
+}
+
+#[test]
+fn droplets() {
+    let fog = |keys: &str| errors(&format!("fog: {{model: droplets, height_m: 9, {keys}}}\n"));
+    let names = "shettle_fenn_advection_heavy, shettle_fenn_advection_moderate, shettle_fenn_radiation_heavy, \
+                 shettle_fenn_radiation_moderate, deirmendjian_cloud_c1, deirmendjian_cloud_c2, deirmendjian_cloud_c3, \
+                 deirmendjian_cloud_c5, deirmendjian_cloud_c6, deirmendjian_haze_m, deirmendjian_haze_l, \
+                 deirmendjian_haze_h, gamma, modified_gamma, lognormals, file";
+    assert_eq!(
+        fog("droplets: deirmendjian_cloud_1"),
+        [format!(
+            "configs/x.yaml:6:47: fog.droplets: unknown value \"deirmendjian_cloud_1\"; expected one of {names}; did you \
+             mean `deirmendjian_cloud_c1`?"
+        )]
+    );
+    assert_eq!(
+        fog("droplets: {gama: {}}"),
+        [format!(
+            "configs/x.yaml:6:47: fog.droplets: unknown value \"gama\"; expected one of {names}; did you mean `gamma`?"
+        )]
+    );
+    assert_eq!(
+        fog("droplets: {gamma: {effective_radius_um: 0, effective_varianc: 0.1}}"),
+        [
+            "configs/x.yaml:6:80: fog.droplets.gamma.effective_varianc: unknown key; expected one of effective_radius_um, \
+             effective_variance; did you mean `effective_variance`?",
+            "configs/x.yaml:6:77: fog.droplets.gamma.effective_radius_um: 0 µm is out of range; valid: 0.01 to 500 µm",
+        ]
+    );
+    assert_eq!(
+        fog("droplets: {modified_gamma: {alpha: 6, b: fast}}, number_density_1_m3: 0"),
+        [
+            "configs/x.yaml:6:78: fog.droplets.modified_gamma.b: expected a number, found text \"fast\"",
+            "configs/x.yaml:6:107: fog.number_density_1_m3: 0 1/m³ is out of range; valid: above 0 up to 1e15 1/m³",
+        ]
+    );
+    assert_eq!(
+        fog("droplets: {lognormals: []}, number_density_1_m3: dense"),
+        [
+            "configs/x.yaml:6:86: fog.number_density_1_m3: expected a number (per cubic metre), found text \"dense\"",
+            "configs/x.yaml:6:60: fog.droplets.lognormals: 0 lognormals; valid: 1 to 16",
+        ]
+    );
+    assert_eq!(
+        fog("droplets: {lognormals: [{median_diameter_um: 5, geometric_sd: 1.5}]}"),
+        [
+            "configs/x.yaml:6:6: fog.number_density_1_m3: missing; droplets per m³ in the mean over altitude, or give \
+          fog.visibility"
+        ]
+    );
+    assert_eq!(
+        fog("number_density_1_m3: 1e8"),
+        [
+            "configs/x.yaml:6:6: fog.droplets: missing; a name such as shettle_fenn_radiation_heavy, or one of {gamma: …}, \
+          {modified_gamma: …}, {lognormals: …}, {file: …}"
+        ]
+    );
+    let vertical = |value: &str| fog(&format!("droplets: deirmendjian_haze_m, vertical: {value}"));
+    assert_eq!(
+        vertical("{thinning: 20}"),
+        ["configs/x.yaml:6:89: fog.vertical.thinning: 20 is out of range; valid: 0.1 to 10"]
+    );
+    assert_eq!(
+        vertical("{rows: [[0.5, 1], [0.2, -1]]}"),
+        [
+            "configs/x.yaml:6:102: fog.vertical.rows.1.1: -1 is out of range; valid: 0 to 1e30",
+            "configs/x.yaml:6:97: fog.vertical.rows.1.0: 0.2 follows 0.5; valid: ascending",
+        ]
+    );
+    assert_eq!(
+        vertical("{rows: [[0, 1]]}"),
+        ["configs/x.yaml:6:85: fog.vertical.rows: 1 rows; valid: at least 2"]
+    );
+    assert_eq!(
+        errors("fog: {model: advection, height_m: 9, vertical: uniform}\n"),
+        ["configs/x.yaml:6:48: fog.vertical: `vertical` belongs to model droplets, not advection"]
     );
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fog_plan::{FogModel, FrameSpec, Output, Phase, Plan, SceneSpec};
+use fog_plan::{Coefficient, FogModel, FrameSpec, MeanCosine, Output, Phase, Plan, Sampling, SceneSpec};
 
 const BASE: &str = "version: 1\nname: t\nscene: none\nfog: {model: advection, height_m: 180}\n";
 
@@ -226,7 +226,7 @@ fn values_are_resolved() {
             single_scattering_albedo: 1.0
         }
     );
-    assert_eq!(frame.fog.phase, Phase::Hg(0.83));
+    assert_eq!(frame.fog.phase, Phase::Hg(MeanCosine::Value(0.83)));
     assert_eq!(frame.camera.position_m, [1.0, 13.0, 2.0]);
     assert_eq!(frame.outputs, [Output::Image, Output::Tau]);
     let json = serde_json::to_value(&frame).unwrap();
@@ -260,4 +260,31 @@ fn overrides_apply_in_order_and_can_drop_the_sweep() {
     assert_eq!(parse(&["sweep.axes.camera.altitude_m=[1, 2, 3]"]).len(), 3);
     let model = parse(&["fog.model=homogeneous", "fog.sigma_t_1_m=0.01"]);
     assert_eq!(model.frame(0).unwrap().fog.model.name(), "homogeneous");
+}
+
+#[test]
+fn phases_coefficients_and_sampling() {
+    let fogs = [
+        "{model: advection, height_m: 50, phase: {hg: layer}}",
+        "{model: advection, height_m: 50, phase: jendersie_deon}",
+        "{model: advection, height_m: 50, phase: {jendersie_deon: {}}, coefficient: paper}",
+        "{model: advection, height_m: 50, phase: {jendersie_deon: {diameter_um: 12}}}",
+        "{model: advection, height_m: 50, phase: mie, sampling: diameter}",
+        "{model: linear_gradient, height_m: 50, sigma_t_top_1_m: 0.1, coefficient: paper, sampling: diameter}",
+        "{model: advection, height_m: 50, sampling: table, coefficient: integral}",
+    ];
+    let plan = plan(&format!("sweep: {{axes: {{fog: [{}]}}}}\n", fogs.join(", ")));
+    let frames = frames(&plan);
+    let fit = |diameter_um| Phase::JendersieDeon { diameter_um };
+    let phases: Vec<Phase> = frames.iter().map(|f| f.fog.phase).collect();
+    assert_eq!(phases[..4], [Phase::Hg(MeanCosine::Layer), fit(None), fit(None), fit(Some(12.0))]);
+    let optics: Vec<_> = frames.iter().map(|f| (f.fog.coefficient, f.fog.sampling)).collect();
+    assert_eq!(optics[2], (Coefficient::Paper, Sampling::Table));
+    assert_eq!(optics[4], (Coefficient::Integral, Sampling::Diameter));
+    assert_eq!(optics[5], (Coefficient::Paper, Sampling::Diameter));
+    let json: Vec<_> = frames.iter().map(|f| serde_json::to_value(&f.fog).unwrap()).collect();
+    assert_eq!(json[0]["phase"]["hg"], "layer");
+    assert_eq!(json[5]["sampling"], "diameter");
+    // Defaults are no part of what a frame's digest covers: frames keep the names that they had before these keys.
+    assert!(json[6].get("coefficient").is_none() && json[6].get("sampling").is_none(), "{}", json[6]);
 }

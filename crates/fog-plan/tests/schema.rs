@@ -23,3 +23,20 @@ fn ranges_and_units_are_in_the_schema() {
     assert_eq!(sensor["properties"]["width_px"]["maximum"], 16384.0);
     assert_eq!(schema["required"], serde_json::json!(["version", "name"]));
 }
+
+#[test]
+fn phases_with_and_without_values_are_in_the_schema() {
+    let schema = fog_plan::schema_json();
+    let phase = resolve(&schema, &schema["$defs"]["Fog"]["properties"]["phase"]);
+    let phase = phase["oneOf"].as_array().unwrap();
+    assert!(phase.iter().any(|p| p["const"] == "jendersie_deon"), "{phase:?}");
+    let key = |name: &str| {
+        let with = phase.iter().find(|p| p["properties"].get(name).is_some());
+        &with.unwrap_or_else(|| panic!("no {name} in {phase:?}"))["properties"][name]
+    };
+    let fit = resolve(&schema, &key("jendersie_deon")["anyOf"][0]);
+    assert_eq!(fit["properties"]["diameter_um"]["maximum"], 50.0);
+    let hg = resolve(&schema, key("hg"));
+    assert_eq!(hg["anyOf"][0]["maximum"], 0.999);
+    assert!(schema.to_string().contains("\"layer\""));
+}

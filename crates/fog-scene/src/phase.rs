@@ -3,21 +3,30 @@
 //! All take m = 1 − cos θ, with θ the angle between the directions of travel before and after: m = 0 is straight on.
 //! Values are in 1/sr and normalised over the sphere.
 
-use fog_core::math::INV_PI_F32;
+use fog_core::diameter_choice::DiameterChoice;
+use fog_core::droplet_table::{DropletTable, DropletView};
 use fog_core::optics_table::{OpticsTable, OpticsView};
+use fog_core::phase::{HenyeyGreenstein, HgDraine};
 use fog_core::phase_grid;
+use fog_core::random::PathRng;
 use fog_core::spectrum::{LaneWeights, Spectrum, Wavelengths};
 
 /// A phase function, owned by the scene.
 #[derive(Clone, Debug)]
 pub enum Phase {
-    /// Henyey & Greenstein (1941) with mean cosine `g` in (−1, 1), the same everywhere.
-    HenyeyGreenstein {
-        /// Mean cosine.
-        g: f32,
-    },
+    /// The same everywhere.
+    HenyeyGreenstein(HenyeyGreenstein),
+    /// The same everywhere.
+    HgDraine(HgDraine),
     /// Tabulated by altitude and wavelength: linear in both and in m between the nodes.
     Table(OpticsTable),
+    /// Each scattering draws a droplet, which scatters by its own function.
+    Droplets {
+        /// Single droplets.
+        table: DropletTable,
+        /// Which of them scatters, over the same diameters and wavelengths.
+        choice: DiameterChoice,
+    },
 }
 
 /// Nodes of the tabulated phase functions in both precisions.
@@ -38,10 +47,9 @@ impl Default for PhaseNodes {
 #[derive(Clone, Copy, Debug)]
 pub enum PhaseView<'a> {
     /// See [`Phase::HenyeyGreenstein`].
-    HenyeyGreenstein {
-        /// Mean cosine.
-        g: f32,
-    },
+    HenyeyGreenstein(HenyeyGreenstein),
+    /// See [`Phase::HgDraine`].
+    HgDraine(&'a HgDraine),
     /// See [`Phase::Table`].
     Table {
         /// The table.
@@ -49,6 +57,27 @@ pub enum PhaseView<'a> {
         /// Its nodes.
         nodes: &'a PhaseNodes,
     },
+    /// See [`Phase::Droplets`].
+    Droplets {
+        /// The table.
+        view: DropletView<'a>,
+        /// The choice among its rows.
+        choice: &'a DiameterChoice,
+        /// Nodes of the table.
+        nodes: &'a PhaseNodes,
+    },
+}
+
+/// What one scattering in the fog is by: the row of a table, and how the path's wavelengths see it.
+#[derive(Clone, Copy, Debug)]
+pub struct Scatterer {
+    /// Row of the table; 0 where there is none.
+    pub row: usize,
+    /// Where the lanes fall between the wavelengths of the table.
+    pub lanes: LaneWeights,
+    /// Probability at each lane of meeting this scatterer rather than another, over that at the hero. A path's throughput
+    /// and densities are to be multiplied by it.
+    pub probability_ratio: Spectrum,
 }
 
 impl Phase {
@@ -56,80 +85,83 @@ impl Phase {
     #[must_use]
     pub fn view<'a>(&'a self, nodes: &'a PhaseNodes) -> PhaseView<'a> {
         match self {
-            Self::HenyeyGreenstein { g } => PhaseView::HenyeyGreenstein { g: *g },
+            Self::HenyeyGreenstein(hg) => PhaseView::HenyeyGreenstein(*hg),
+            Self::HgDraine(mixture) => PhaseView::HgDraine(mixture),
             Self::Table(table) => PhaseView::Table { view: table.view(), nodes },
+            Self::Droplets { table, choice } => PhaseView::Droplets { view: table.view(), choice, nodes },
         }
     }
 }
 
-/// Henyey–Greenstein in 1/sr; the denominator is written in m, which keeps its precision near forward.
-#[inline(always)]
-fn henyey_greenstein(g: f32, m: f32) -> f32 {
-    let d = (1.0 - g) * (1.0 - g) + 2.0 * g * m;
-    (1.0 - g * g) * 0.25 * INV_PI_F32 / (d * d.sqrt())
-}
-
 impl PhaseView<'_> {
+    /// Wavelengths of the table, in nm; one where nothing depends on the wavelength.
+    fn wavelengths_nm(&self) -> &[f64] {
+        match self {
+            Self::HenyeyGreenstein(_) | Self::HgDraine(_) => &[550.0],
+            Self::Table { view, .. } => view.wavelengths_nm,
+            Self::Droplets { view, .. } => view.wavelengths_nm,
+        }
+    }
+
     /// Weights of the lanes between the table's wavelengths.
     #[must_use]
     pub fn lanes(&self, wavelengths: &Wavelengths) -> LaneWeights {
-        match self {
-            Self::HenyeyGreenstein { .. } => LaneWeights::new(&[550.0], wavelengths),
-            Self::Table { view, .. } => LaneWeights::new(view.wavelengths_nm, wavelengths),
-        }
+        LaneWeights::new(self.wavelengths_nm(), wavelengths)
     }
 
     /// True if all lanes have the same value.
     #[inline]
     #[must_use]
     pub fn is_grey(&self) -> bool {
-        match self {
-            Self::HenyeyGreenstein { .. } => true,
-            Self::Table { view, .. } => view.wavelengths_nm.len() == 1,
-        }
+        self.wavelengths_nm().len() == 1
     }
 
-    /// The table's row for a scattering at relative altitude `zeta`; `u` uniform in [0, 1).
+    /// What a scattering at relative altitude `zeta` is by, where `lanes` is where the path's wavelengths fall.
     #[inline]
     #[must_use]
-    pub fn row(&self, zeta: f32, u: f32) -> usize {
-        match self {
-            Self::HenyeyGreenstein { .. } => 0,
+    pub fn scatterer(&self, zeta: f32, lanes: &LaneWeights, rng: &mut PathRng) -> Scatterer {
+        // Drawn whether or not there are altitudes to choose from: the same numbers follow with every phase function.
+        let u = rng.uniform();
+        let row = match self {
+            Self::HenyeyGreenstein(_) | Self::HgDraine(_) => 0,
             Self::Table { view, .. } => view.phase_row(zeta, u),
-        }
+            Self::Droplets { choice, .. } => {
+                let (altitude, u, pick) = (choice.row(zeta, u), rng.uniform_f64(), rng.uniform());
+                let drawn = choice.sample(altitude, lanes, u, pick);
+                let (lanes, probability_ratio) = (drawn.lanes, drawn.probability_ratio);
+                return Scatterer { row: drawn.row, lanes, probability_ratio };
+            }
+        };
+        Scatterer { row, lanes: *lanes, probability_ratio: Spectrum::ONE }
     }
 
-    /// Value in 1/sr at all lanes.
+    /// Value in 1/sr at all lanes, of row `row` of the table (see [`Scatterer`]).
     #[inline]
     #[must_use]
     pub fn eval(&self, row: usize, m: f32, lanes: &LaneWeights) -> Spectrum {
         match self {
-            Self::HenyeyGreenstein { g } => Spectrum::splat(henyey_greenstein(*g, m)),
+            Self::HenyeyGreenstein(hg) => Spectrum::splat(hg.eval_single(m)),
+            Self::HgDraine(mixture) => Spectrum::splat(mixture.eval(f64::from(m)) as f32),
             Self::Table { view, nodes } => view.phase(row, m, &nodes.single, lanes),
+            Self::Droplets { view, nodes, .. } => view.phase(row, m, &nodes.single, lanes),
         }
     }
 
     /// Samples m with density 2π · (value at lane 0), for `u` uniform in [0, 1) and `pick` uniform, which chooses between
-    /// the hero's two neighbouring wavelengths of the table.
+    /// the hero's two neighbouring wavelengths of the table, or between the parts of a mixture.
     #[inline]
     #[must_use]
     pub fn sample(&self, row: usize, lanes: &LaneWeights, u: f64, pick: f32) -> f32 {
+        let column = || {
+            let lower = lanes.index[0] as usize;
+            let column = if pick < lanes.weight[0] { lower + 1 } else { lower };
+            column.min(self.wavelengths_nm().len() - 1)
+        };
         match self {
-            Self::HenyeyGreenstein { g } => {
-                let g = f64::from(*g);
-                if g.abs() < 1e-6 {
-                    // First order in g, where the closed form loses its digits.
-                    return (2.0 * u - 6.0 * g * u * (1.0 - u)).clamp(0.0, 2.0) as f32;
-                }
-                // Mirrored in u, so that u = 0 is forward as in the tables.
-                let s = (1.0 - g * g) / (1.0 + g - 2.0 * g * u);
-                (1.0 - (1.0 + g * g - s * s) / (2.0 * g)).clamp(0.0, 2.0) as f32
-            }
-            Self::Table { view, nodes } => {
-                let lower = lanes.index[0] as usize;
-                let column = if pick < lanes.weight[0] { lower + 1 } else { lower };
-                view.sample_m(row, column.min(view.wavelengths_nm.len() - 1), u, &nodes.double)
-            }
+            Self::HenyeyGreenstein(hg) => hg.sample(u) as f32,
+            Self::HgDraine(mixture) => mixture.sample(u, f64::from(pick)) as f32,
+            Self::Table { view, nodes } => view.sample_m(row, column(), u, &nodes.double),
+            Self::Droplets { view, nodes, .. } => view.sample_m(row, column(), u, &nodes.double),
         }
     }
 }

@@ -51,8 +51,8 @@ impl PathTracer<'_> {
                 if rng.uniform() >= medium.profile.albedo(y, &lanes.profile)[0] {
                     return sum;
                 }
-                let row = medium.phase.row(medium.profile.zeta(y), rng.uniform());
-                let m = medium.phase.sample(row, &lanes.phase, rng.uniform_f64(), rng.uniform());
+                let droplet = medium.phase.scatterer(medium.profile.zeta(y), &lanes.phase, rng);
+                let m = medium.phase.sample(droplet.row, &droplet.lanes, rng.uniform_f64(), rng.uniform());
                 let sin = (m * (2.0 - m)).max(0.0).sqrt();
                 origin += direction * t as f32;
                 let local = warp::spherical(1.0 - m, sin, math::TAU_F32 * rng.uniform());

@@ -6,9 +6,9 @@
 //! mixture density, which bounds what a connection to the sun at the next vertex can weigh.
 
 use fog_core::random::PathRng;
-use fog_core::spectrum::{LaneWeights, Spectrum};
+use fog_core::spectrum::Spectrum;
 use fog_core::{Vec3A, math, warp};
-use fog_scene::phase::PhaseView;
+use fog_scene::phase::{PhaseView, Scatterer};
 
 /// Share of directions drawn around the sun by paths that travel elsewhere; times the root of the beam's transmittance, so
 /// that the many scatterings in the dark depth of a layer are left alone.
@@ -23,8 +23,7 @@ const NEAR_M: f32 = 0.015;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FogLobe<'a> {
     phase: &'a PhaseView<'a>,
-    lanes: &'a LaneWeights,
-    row: usize,
+    scatterer: &'a Scatterer,
     before: Vec3A,
     sun: Vec3A,
     sun_share: f32,
@@ -38,13 +37,11 @@ pub(crate) struct LobeValue {
 }
 
 impl<'a> FogLobe<'a> {
-    /// Scattering of a path that travelled along `before`, by row `row` of the phase function. `sun` is the direction to
-    /// the sun and its beam's transmittance to here, which must not depend on the path's wavelengths.
+    /// Scattering of a path that travelled along `before`, by `scatterer`. `sun` is the direction to the sun and its beam's transmittance to here, which must not depend on the path's wavelengths.
     #[inline]
     pub(crate) fn new(
         phase: &'a PhaseView<'a>,
-        lanes: &'a LaneWeights,
-        row: usize,
+        scatterer: &'a Scatterer,
         before: Vec3A,
         sun: Option<(Vec3A, f32)>,
     ) -> Self {
@@ -52,7 +49,7 @@ impl<'a> FogLobe<'a> {
         let root = transmittance.sqrt();
         let near = 1.0 / (1.0 + 0.5 * (sun - before).length_squared() / NEAR_M);
         let sun_share = FAR_SHARE * root * (1.0 - near) + NEAR_SHARE * root.sqrt() * near;
-        Self { phase, lanes, row, before, sun, sun_share }
+        Self { phase, scatterer, before, sun, sun_share }
     }
 
     /// Value and density for a direction of travel after the scattering.
@@ -63,7 +60,7 @@ impl<'a> FogLobe<'a> {
 
     #[inline]
     fn at(&self, m: f32) -> Spectrum {
-        self.phase.eval(self.row, m, self.lanes)
+        self.phase.eval(self.scatterer.row, m, &self.scatterer.lanes)
     }
 
     #[inline]
@@ -80,7 +77,8 @@ impl<'a> FogLobe<'a> {
     pub(crate) fn sample(&self, rng: &mut PathRng) -> (Vec3A, LobeValue) {
         let towards_sun = self.sun_share > 0.0 && rng.uniform() < self.sun_share;
         let axis = if towards_sun { self.sun } else { self.before };
-        let m = self.phase.sample(self.row, self.lanes, rng.uniform_f64(), rng.uniform());
+        let m =
+            self.phase.sample(self.scatterer.row, &self.scatterer.lanes, rng.uniform_f64(), rng.uniform());
         let local = warp::spherical(1.0 - m, (m * (2.0 - m)).max(0.0).sqrt(), math::TAU_F32 * rng.uniform());
         let after = (warp::frame(axis) * local).normalize();
         let value = if towards_sun { self.value(after) } else { self.mix(self.at(m), after) };

@@ -18,6 +18,7 @@ use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
 use fog_scene::medium::{MediumLanes, MediumView};
+use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
 
 /// Scatterings before Russian roulette may end a path.
@@ -130,8 +131,8 @@ impl<'a> PathTracer<'a> {
                 Event::Collision { t, tau } => {
                     out.airlight |= path.depth == 0;
                     self.may_scatter(&path) && {
-                        let row = self.collide(&mut path, &lanes, t, tau, rng.uniform());
-                        let sum = self.scatter_in_fog(&mut path, row, &lanes, rng);
+                        let scatterer = self.collide(&mut path, &lanes, t, tau, rng);
+                        let sum = self.scatter_in_fog(&mut path, &scatterer, &lanes, rng);
                         out.radiance += sum;
                         true
                     }
@@ -178,9 +179,9 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Moves to a collision at distance `t`, where the hero has crossed `tau`; returns the phase function's row.
+    /// Moves to a collision at distance `t`, where the hero has crossed `tau`; returns what the path collides with.
     #[inline]
-    fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, u: f32) -> usize {
+    fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, rng: &mut PathRng) -> Scatterer {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
         let y_hit = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
@@ -193,20 +194,28 @@ impl<'a> PathTracer<'a> {
         }
         path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
         path.origin += path.direction * t as f32;
-        medium.phase.row(medium.profile.zeta(y_hit), u)
+        let scatterer = medium.phase.scatterer(medium.profile.zeta(y_hit), &lanes.phase, rng);
+        path.beta *= scatterer.probability_ratio;
+        path.r_u *= scatterer.probability_ratio;
+        scatterer
     }
 
     /// Connects a collision to the lights, then turns the path by the phase function of the hero; returns the light.
     #[inline]
-    fn scatter_in_fog(&self, path: &mut Path, row: usize, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
-        let (medium, in_medium) =
-            self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+    fn scatter_in_fog(
+        &self,
+        path: &mut Path,
+        scatterer: &Scatterer,
+        lanes: &Lanes,
+        rng: &mut PathRng,
+    ) -> Spectrum {
+        let medium = self.medium.as_ref().expect("collision needs fog");
         let sun = self.scene.sun.zip(self.reference_lanes.as_ref()).map(|(sun, reference)| {
             let (y, dy) = (f64::from(path.origin.y), f64::from(sun.direction.y));
             let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, reference);
             (sun.direction, math::fast_exp(-tau[0]))
         });
-        let lobe = FogLobe::new(&medium.phase, &in_medium.phase, row, path.direction, sun);
+        let lobe = FogLobe::new(&medium.phase, scatterer, path.direction, sun);
         let sum = self.lights_in_fog(path, &lobe, lanes, rng);
 
         let (direction, value) = lobe.sample(rng);

@@ -28,6 +28,16 @@ pub enum Error {
     /// The data set cannot be read or written.
     #[error(transparent)]
     DataSet(#[from] fog_dataset::Error),
+    /// Two pictures or data sets that cannot be compared.
+    #[error("cannot compare {} with {}: {reason}", a.display(), b.display())]
+    Incomparable {
+        /// A, as it was named.
+        a: PathBuf,
+        /// B.
+        b: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// A pixel came out infinite or not a number.
     #[error(transparent)]
     Frame(#[from] fog_film::FrameError),

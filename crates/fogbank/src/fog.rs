@@ -1,11 +1,15 @@
 //! The fog of a frame: where optics (droplets, tables) and scene (media) meet.
 
+use crate::droplets::{self, Spectrum};
 use crate::error::Error;
+use crate::phase::FogPhase;
 use crate::resources::Resources;
+use fog_core::optics_table::OpticsTable;
+use fog_optics::droplets::DropletLayer;
 use fog_optics::layer::{self, FogLayer};
-use fog_optics::layer_csv;
 use fog_optics::state::FogState;
-use fog_plan::{FogModel, FogSpec, Phase};
+use fog_optics::{coefficient, layer_csv};
+use fog_plan::{Coefficient, FogModel, FogSpec};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
 
@@ -17,16 +21,19 @@ pub struct Fog {
     layer: FogLayer,
     droplets: Option<Droplets>,
     g: Option<f64>,
+    phase_record: Value,
+    /// Where the extinction comes from droplets.
+    coefficient: Option<Coefficient>,
     datum_m: f64,
 }
 
-/// What an advection layer's droplets are computed from.
+/// What a layer's droplets are computed from.
 #[derive(Clone, Debug)]
 struct Droplets {
-    table: fog_core::optics_table::OpticsTable,
-    model: fog_optics::advection::AdvectionModel,
-    height_m: f64,
-    number_density_scale: f64,
+    table: OpticsTable,
+    fog: DropletLayer,
+    /// The configured spectrum; none for the advection model's, which vary with altitude.
+    spectrum: Option<Spectrum>,
 }
 
 impl Fog {
@@ -35,25 +42,25 @@ impl Fog {
     /// # Errors
     /// If a layer file cannot be read or is wrong, or the visibility cannot be met.
     pub fn new(spec: &FogSpec, resources: &Resources) -> Result<Option<Self>, Error> {
-        let Some((mut layer, mut droplets)) = layer_of(&spec.model, resources)? else { return Ok(None) };
+        let Some((mut layer, mut droplets)) = layer_of(spec, resources)? else { return Ok(None) };
         if let Some(wanted) = spec.visibility {
             let factor = layer.scale_for_mor(wanted.mor_m, wanted.altitude_m)?;
             layer = layer.scaled(factor)?;
             if let Some(droplets) = &mut droplets {
-                droplets.number_density_scale *= factor;
+                droplets.fog = droplets.fog.clone().scaled(factor)?;
             }
         }
-        let (phase, g) = match spec.phase {
-            Phase::Hg(g) => (fog_scene::phase::Phase::HenyeyGreenstein { g: g as f32 }, Some(g)),
-            Phase::Mie => (fog_scene::phase::Phase::Table(resources.polydisperse()?.clone()), None),
-            Phase::MieMeanDiameter => {
-                let table = resources.mean_diameter()?;
-                let g = table.view().g[0];
-                (fog_scene::phase::Phase::Table(table.clone()), Some(g))
-            }
-        };
+        let spectrum = droplets.as_ref().and_then(|d| d.spectrum.as_ref());
+        let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, spectrum, resources)?;
         let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
-        Ok(Some(Self { medium, layer, droplets, g, datum_m: spec.datum_m }))
+        let coefficient = from_droplets(&spec.model).then_some(spec.coefficient);
+        let datum_m = spec.datum_m;
+        Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, datum_m }))
+    }
+
+    /// Phase function and scattering coefficient as they are recorded.
+    pub(crate) fn optics_json(&self) -> [(&'static str, Value); 2] {
+        [("phase", self.phase_record.clone()), ("coefficient", json!(self.coefficient))]
     }
 
     /// Altitude over the fog's datum of world height `y`, in metres.
@@ -75,13 +82,23 @@ impl Fog {
     pub fn state(&self, altitude_m: f64) -> Result<FogState, Error> {
         let grey = FogState::grey(&self.layer, self.g, altitude_m);
         let Some(d) = &self.droplets else { return Ok(grey) };
-        let mut state =
-            FogState::advection(&d.table, &d.model, d.height_m, d.number_density_scale, altitude_m)?;
+        let mut state = FogState::droplets(&d.table, &d.fog, altitude_m);
         (state.sigma_t_550_1_m, state.mor_m) = (grey.sigma_t_550_1_m, grey.mor_m);
+        if self.coefficient == Some(Coefficient::Paper) {
+            state.albedo = state.albedo.and(grey.albedo);
+        }
         if state.g.is_some() && self.g.is_some() {
             state.g = self.g;
         }
         Ok(state)
+    }
+
+    /// The configured spectrum and its number as they are recorded; null for other models.
+    pub(crate) fn droplets_json(&self) -> Value {
+        let Some(Droplets { fog, spectrum: Some(spectrum), .. }) = &self.droplets else { return Value::Null };
+        let mut value = spectrum.to_json();
+        value["mean_number_density_1_m3"] = json!(fog.mean_number_density_1_m3());
+        value
     }
 
     /// [`Fog::state`] as it is recorded.
@@ -102,24 +119,45 @@ impl Fog {
     }
 }
 
+/// True if the extinction of the layer, or a part of it, is that of droplets.
+fn from_droplets(model: &FogModel) -> bool {
+    match model {
+        FogModel::None | FogModel::Layered { .. } => false,
+        FogModel::Advection { .. } | FogModel::Droplets { .. } => true,
+        FogModel::Homogeneous { sigma_t_1_m, .. } => sigma_t_1_m.is_none(),
+        FogModel::LinearGradient { sigma_t_base_1_m, sigma_t_top_1_m, .. } => {
+            sigma_t_base_1_m.is_none() || sigma_t_top_1_m.is_none()
+        }
+    }
+}
+
 /// The layer of a model, and its droplets where the model has them.
-fn layer_of(model: &FogModel, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
+fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
+    let layer_from = |table: &OpticsTable, fog: &DropletLayer| -> Result<FogLayer, Error> {
+        Ok(match spec.coefficient {
+            Coefficient::Integral => layer::droplets(table, fog),
+            Coefficient::Paper => coefficient::paper_layer(fog, table.view().wavelengths_nm)?,
+        })
+    };
     // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
     let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        Ok(layer::advection(resources.polydisperse()?, &resources.model, height_m, 1.0)?)
+        layer_from(resources.polydisperse()?, &DropletLayer::advection(&resources.model, height_m)?)
     };
-    let layer = match model {
+    let layer = match &spec.model {
         FogModel::None => return Ok(None),
         FogModel::Advection { height_m, number_density_scale } => {
-            let (table, model) = (resources.polydisperse()?, &resources.model);
-            let layer = layer::advection(table, model, *height_m, *number_density_scale)?;
-            let droplets = Droplets {
-                table: table.clone(),
-                model: model.clone(),
-                height_m: *height_m,
-                number_density_scale: *number_density_scale,
-            };
-            return Ok(Some((layer, Some(droplets))));
+            let fog = DropletLayer::advection(&resources.model, *height_m)?.scaled(*number_density_scale)?;
+            let table = resources.polydisperse()?.clone();
+            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum: None }))));
+        }
+        FogModel::Droplets { height_m, droplets, number_density_1_m3, vertical } => {
+            let spectrum = resources.spectrum(droplets)?;
+            let scaled_later = spec.visibility.is_some();
+            let model = &resources.model;
+            let fog =
+                droplets::fog(spectrum, *number_density_1_m3, scaled_later, vertical, *height_m, model)?;
+            let (table, spectrum) = (spectrum.table.clone(), Some(spectrum.clone()));
+            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum }))));
         }
         FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
             let sigma =

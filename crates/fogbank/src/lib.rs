@@ -16,26 +16,35 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod compare;
+mod droplets;
 mod error;
 mod fog;
 mod frame;
 mod lighting;
+mod phase;
 mod progress;
 mod record;
 mod resources;
 mod sweep;
 mod table_cache;
 
+pub use compare::{
+    Compared, FramePair, LeftOut, MatchedFrames, Matching, Means, compare_pictures, match_frames,
+};
 pub use error::Error;
 pub use fog::Fog;
 pub use fog_dataset as dataset;
+pub use fog_figures as figures;
+pub use fog_film as film;
+pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_scene::generate;
 pub use frame::{Rendered, camera, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
 pub use resources::Resources;
 pub use sweep::{Selection, output_set, path_count, sweep};
-pub use table_cache::{TableCache, TableOrigin};
+pub use table_cache::{Stored, TableCache, TableOrigin};
 
 /// Digest of the sources, dependencies and tables that this program was built from: frames of equal specification and
 /// equal digest have equal bytes.

@@ -19,12 +19,17 @@ pub(crate) fn record(
     let mut value = json!(spec);
     let layer = fog.map(|fog| {
         let [base, top] = fog.extent_m();
-        json!({
+        let mut state = json!({
             "wavelength_nm": TAU_NM,
+            "droplets": fog.droplets_json(),
             "at_camera": fog.state_json(fog.altitude_m(f64::from(camera.pose.position.y))),
             "at_base": fog.state_json(base),
             "at_top": fog.state_json(top),
-        })
+        });
+        for (key, value) in fog.optics_json() {
+            state[key] = value;
+        }
+        state
     });
     value["fog_state"] = layer.unwrap_or(Value::Null);
     value["camera"]["world_from_camera"] = pose_json(camera);

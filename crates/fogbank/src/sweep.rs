@@ -6,7 +6,7 @@ use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::{CODE_DIGEST, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
-use fog_plan::{FogModel, FrameSpec, Plan};
+use fog_plan::{FogModel, FrameSpec, Plan, VerticalSpec};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -130,7 +130,12 @@ fn warn_of_extrapolation(
     let mut heights: Vec<f64> = selected
         .iter()
         .filter_map(|&i| match frames[i].fog.model {
-            FogModel::Advection { height_m, .. } if resources.model.extrapolates(height_m) => Some(height_m),
+            FogModel::Advection { height_m, .. }
+            | FogModel::Droplets { height_m, vertical: VerticalSpec::Advection, .. }
+                if resources.model.extrapolates(height_m) =>
+            {
+                Some(height_m)
+            }
             _ => None,
         })
         .collect();

@@ -5,7 +5,8 @@
 //! each opening; a damaged file is rebuilt.
 
 use crate::error::Error;
-use fog_core::optics_table::OpticsTable;
+use fog_core::droplet_table::DropletTable;
+use fog_core::optics_table::{OpticsTable, OpticsTableError, SharedBytes};
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,33 @@ use std::sync::Arc;
 const MAGIC: &[u8; 8] = b"fogtable";
 /// Magic, payload length, hash of the payload, padding: keeps the payload aligned.
 const HEADER_BYTES: usize = 64;
+
+/// A table that can be stored and mapped back.
+pub trait Stored: Sized {
+    /// The whole table.
+    fn as_bytes(&self) -> &[u8];
+
+    /// The table in bytes that start at `offset`.
+    ///
+    /// # Errors
+    /// If the bytes are none of this version.
+    fn from_bytes(bytes: SharedBytes, offset: usize) -> Result<Self, OpticsTableError>;
+}
+
+macro_rules! stored {
+    ($($table:ty),*) => {
+        $(impl Stored for $table {
+            fn as_bytes(&self) -> &[u8] {
+                self.as_bytes()
+            }
+
+            fn from_bytes(bytes: SharedBytes, offset: usize) -> Result<Self, OpticsTableError> {
+                Self::from_bytes(bytes, offset)
+            }
+        })*
+    };
+}
+stored!(OpticsTable, DropletTable);
 
 /// A folder of optics tables.
 #[derive(Clone, Debug)]
@@ -51,12 +79,12 @@ impl TableCache {
     ///
     /// # Errors
     /// Those of `build`. A cache that cannot be written only costs its sharing ([`TableOrigin::Unstored`]).
-    pub fn open(
+    pub fn open<T: Stored>(
         &self,
         name: &str,
         fingerprint: &[u8],
-        build: impl FnOnce() -> Result<OpticsTable, Error>,
-    ) -> Result<(OpticsTable, TableOrigin), Error> {
+        build: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<(T, TableOrigin), Error> {
         let endian = if cfg!(target_endian = "big") { "-be" } else { "" };
         let hash = blake3::hash(fingerprint).to_hex();
         let path = self.dir.join(format!("{name}-{}{endian}.fogtable", &hash[..16]));
@@ -121,7 +149,7 @@ impl AsRef<[u8]> for Mapped {
 }
 
 /// Maps a table and checks its hash; the error says what is wrong with the file.
-fn read(path: &Path) -> Result<OpticsTable, String> {
+fn read<T: Stored>(path: &Path) -> Result<T, String> {
     let file = File::open(path).map_err(|e| e.to_string())?;
     // SAFETY: table files are never changed in place, only replaced by rename (`store`), so the mapped bytes stay as they
     // are for as long as the map lives; a file that somebody else truncates under us is outside the cache's contract.
@@ -135,7 +163,7 @@ fn read(path: &Path) -> Result<OpticsTable, String> {
     if header[16..48] != blake3::hash(payload).as_bytes()[..] {
         return Err("checksum does not match".to_owned());
     }
-    OpticsTable::from_bytes(Arc::new(Mapped(map)), HEADER_BYTES).map_err(|e| e.to_string())
+    T::from_bytes(Arc::new(Mapped(map)), HEADER_BYTES).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ fn help_shows_examples() {
     let dir = tempfile::tempdir().unwrap();
     let help = run(&["--help"], dir.path()).ok().stdout;
     assert!(help.contains("Examples:\n  fogbank ") && help.contains("Exit codes:"), "{help}");
-    for command in ["sweep", "render", "plan", "schema", "scene", "verify"] {
+    for command in ["sweep", "render", "plan", "schema", "scene", "verify", "compare"] {
         let own = run(&[command, "--help"], dir.path()).ok().stdout;
         assert!(help.contains(command) && own.contains(&format!("fogbank {command}")), "{own}");
     }

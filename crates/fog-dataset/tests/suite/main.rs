@@ -3,6 +3,7 @@
 mod common;
 mod concurrent;
 mod folder;
+mod pictures;
 mod resume;
 mod round_trip;
 mod sizes;

@@ -27,7 +27,7 @@ fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 9 + 6);
+    assert_eq!(s.channels.len(), 10 + 6);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
@@ -36,6 +36,7 @@ fn every_channel_comes_back_bit_by_bit() {
         let (d, a) = (&s.channels[&format!("direct.{name}")], &s.channels[&format!("airlight.{name}")]);
         same(&s, name, |i| d.values[i] + a.values[i]);
     }
+    same(&s, "standard_error.Y", |i| f.standard_error[i]);
     same(&s, "depth.Z", |i| f.truth.depth_m[i]);
     same(&s, "distance.Z", |i| f.truth.distance_m[i]);
     same(&s, "tau.Y", |i| f.truth.tau[i]);
@@ -56,7 +57,19 @@ fn one_wavelength_has_one_channel() {
     let f = frame(8, 6, MONO, 4);
     let s = stored(&open(dir.path(), 1), &f);
     let names: Vec<&str> = s.channels.keys().map(String::as_str).collect();
-    assert_eq!(names, ["Y", "airlight.Y", "depth.Z", "direct.Y", "distance.Z", "tau.Y", "transmittance.Y"]);
+    assert_eq!(
+        names,
+        [
+            "Y",
+            "airlight.Y",
+            "depth.Z",
+            "direct.Y",
+            "distance.Z",
+            "standard_error.Y",
+            "tau.Y",
+            "transmittance.Y"
+        ]
+    );
     same(&s, "Y", |i| f.image(i)[0]);
     same(&s, "transmittance.Y", |i| f.truth.transmittance[i][0]);
 }

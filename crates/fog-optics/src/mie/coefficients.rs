@@ -16,6 +16,11 @@ use num_complex::Complex64;
 pub(super) fn series(m: Complex64, x: f64) -> MieSeries {
     // Terms fall below 1e-15 of the largest at x + 7 ∛x (Wiscombe 1980 stops at x + 4.05 ∛x, 2e-7 in amplitude).
     let terms = (x + 7.0 * cbrt(x)) as usize + 6;
+    if m == Complex64::new(1.0, 0.0) {
+        // No sphere at all: exactly nothing, instead of rounding errors around it.
+        let nothing = vec![Complex64::new(0.0, 0.0); terms];
+        return MieSeries { x, a: nothing.clone(), b: nothing, q_abs: 0.0 };
+    }
     let z = m * x;
     let inside = ratios(z, terms);
     let (psi, chi) = riccati_bessel(x, terms);

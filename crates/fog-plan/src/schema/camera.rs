@@ -103,10 +103,13 @@ pub(crate) enum OutputFile {
     Direct,
     /// Light that the fog scattered.
     Airlight,
+    /// Standard error of each pixel's luminance; only where it is named.
+    StandardError,
 }
 
 impl OutputFile {
-    pub(crate) const ALL: [Self; 8] = [
+    /// What a configuration without `outputs` gets.
+    pub(crate) const DEFAULT: [Self; 8] = [
         Self::Image,
         Self::Hdr,
         Self::Depth,

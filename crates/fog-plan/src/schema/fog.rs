@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::or_none::Example;
+use super::{
+    droplets::{DropletsFile, VerticalFile},
+    or_none::Example,
+    phase::PhaseFile,
+};
 use crate::ranges;
 
 /// A fog layer. Which keys apply depends on `model`.
@@ -13,12 +17,21 @@ use crate::ranges;
 pub(crate) struct FogFile {
     /// Which fog.
     pub(crate) model: Option<FogModelName>,
-    /// Thickness of the layer above the datum, in metres (advection, homogeneous, linear_gradient).
+    /// Thickness of the layer above the datum, in metres (advection, droplets, homogeneous, linear_gradient).
     #[schemars(range(min = ranges::LAYER_HEIGHT_M.min, max = ranges::LAYER_HEIGHT_M.max))]
     pub(crate) height_m: Option<f64>,
     /// Factor on the droplets' number density (advection). Absent: 1.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::DENSITY_SCALE.max))]
     pub(crate) number_density_scale: Option<f64>,
+    /// The spectrum of the droplets (droplets): a name, or one of {gamma: …}, {modified_gamma: …}, {lognormals: …},
+    /// {file: …}.
+    pub(crate) droplets: Option<DropletsFile>,
+    /// Droplets per cubic metre in the mean over altitude (droplets). Absent: the number of the named or measured spectrum,
+    /// or what `visibility` asks for.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::NUMBER_DENSITY_1_M3.max))]
+    pub(crate) number_density_1_m3: Option<f64>,
+    /// Number of droplets by altitude (droplets). Absent: uniform.
+    pub(crate) vertical: Option<VerticalFile>,
     /// Extinction coefficient in 1/m, at every wavelength (homogeneous). Absent: the mean over altitude of the advection
     /// layer's at 550 nm.
     #[schemars(range(min = ranges::SIGMA_T_1_M.min, max = ranges::SIGMA_T_1_M.max))]
@@ -36,6 +49,13 @@ pub(crate) struct FogFile {
     pub(crate) single_scattering_albedo: Option<f64>,
     /// Where scattered light goes.
     pub(crate) phase: PhaseFile,
+    /// Which scattering coefficient the droplets give (advection, and homogeneous or linear_gradient whose extinction is
+    /// taken from an advection layer). Absent: integral.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) coefficient: Option<CoefficientFile>,
+    /// How `phase: mie` is sampled. Absent: table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sampling: Option<SamplingFile>,
     /// Scales the layer so that it has this visibility.
     pub(crate) visibility: Option<VisibilityFile>,
     /// World height of altitude 0, in metres.
@@ -49,12 +69,17 @@ impl Default for FogFile {
             model: None,
             height_m: None,
             number_density_scale: None,
+            droplets: None,
+            number_density_1_m3: None,
+            vertical: None,
             sigma_t_1_m: None,
             sigma_t_base_1_m: None,
             sigma_t_top_1_m: None,
             file: None,
             single_scattering_albedo: None,
             phase: PhaseFile::Mie,
+            coefficient: None,
+            sampling: None,
             visibility: None,
             datum_m: 0.0,
         }
@@ -72,6 +97,8 @@ impl Example for FogFile {
 pub(crate) enum FogModelName {
     /// Droplet sizes by altitude, after Kolářová et al. 2024.
     Advection,
+    /// Droplets of any spectrum, with any number by altitude.
+    Droplets,
     /// The same extinction everywhere in the layer.
     Homogeneous,
     /// Extinction linear in altitude.
@@ -85,6 +112,7 @@ impl FogModelName {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Advection => "advection",
+            Self::Droplets => "droplets",
             Self::Homogeneous => "homogeneous",
             Self::LinearGradient => "linear_gradient",
             Self::Layered => "layered",
@@ -92,17 +120,27 @@ impl FogModelName {
     }
 }
 
-/// The phase functions.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, Serialize)]
+/// What the droplets of a layer add up to.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[schemars(rename = "Phase")]
-pub(crate) enum PhaseFile {
-    /// Mie scattering of the advection model's droplets, by altitude relative to the layer and by wavelength.
-    Mie,
-    /// Henyey–Greenstein with this mean cosine.
-    Hg(#[schemars(range(min = ranges::HG_G.min, max = ranges::HG_G.max))] f64),
-    /// Mie scattering of the mean droplet (the paper's table).
-    MieMeanDiameter,
+#[schemars(rename = "Coefficient")]
+pub(crate) enum CoefficientFile {
+    /// Extinction by all droplets: the integral of n(d) C(d) over their diameters.
+    Integral,
+    /// The convention of Kolářová et al. 2024, Eq. 4: N σ(d) with the density at the sampled diameter taken for a number,
+    /// averaged over diameters sampled by number; 15 to 29 times less.
+    Paper,
+}
+
+/// How a direction is found in which droplets scatter.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Sampling")]
+pub(crate) enum SamplingFile {
+    /// From the phase function of all droplets together.
+    Table,
+    /// From that of one droplet, drawn by how much it scatters: the same light in the mean, with more noise.
+    Diameter,
 }
 
 /// A visibility at an altitude.

@@ -3,18 +3,22 @@
 //! Keys that an axis may supply are optional here even where a frame needs them.
 
 mod camera;
+mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod phase;
 mod sweep;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
-pub(crate) use fog::{FogFile, FogModelName, PhaseFile, VisibilityFile};
+pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
+pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
 pub(crate) use or_none::OrNone;
+pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
 use or_none::Example;
@@ -60,14 +64,14 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; all of them unless said otherwise.
+/// Names of the outputs; unless said otherwise all but `standard_error`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);
 
 impl Default for Outputs {
     fn default() -> Self {
-        Self(OutputFile::ALL.to_vec())
+        Self(OutputFile::DEFAULT.to_vec())
     }
 }
 

@@ -2,12 +2,15 @@
 
 use super::Check;
 use crate::{
-    frame::{FogModel, FogSpec, Phase, Visibility},
+    frame::{Coefficient, FogModel, FogSpec, MeanCosine, Phase, Sampling, Visibility},
     ranges,
-    schema::{FogFile, FogModelName, OrNone, PhaseFile, VisibilityFile},
+    schema::{
+        CoefficientFile, FogFile, FogModelName, MeanCosineFile, OrNone, PhaseFile, SamplingFile,
+        VisibilityFile,
+    },
 };
 
-use FogModelName::{Advection, Homogeneous, Layered, LinearGradient};
+use FogModelName::{Advection, Droplets, Homogeneous, Layered, LinearGradient};
 
 /// Number density and albedo of fogs that do not say.
 pub(crate) const DEFAULT_SCALE: f64 = 1.0;
@@ -15,7 +18,7 @@ pub(crate) const DEFAULT_SCALE: f64 = 1.0;
 pub(crate) const DEFAULT_ALBEDO: f64 = 1.0;
 
 /// Models that have a layer of given thickness.
-const WITH_HEIGHT: [FogModelName; 3] = [Advection, Homogeneous, LinearGradient];
+const WITH_HEIGHT: [FogModelName; 4] = [Advection, Droplets, Homogeneous, LinearGradient];
 /// Models whose albedo is given rather than computed.
 const WITH_ALBEDO: [FogModelName; 3] = [Homogeneous, LinearGradient, Layered];
 
@@ -30,25 +33,85 @@ impl Check<'_> {
                 return Some(FogSpec {
                     model: FogModel::None,
                     phase: Phase::Mie,
+                    coefficient: Coefficient::default(),
+                    sampling: Sampling::default(),
                     visibility: None,
                     datum_m: 0.0,
                 });
             }
             OrNone::Some(fog) => fog,
         };
-        let phase = match fog.phase {
-            PhaseFile::Mie => Some(Phase::Mie),
-            PhaseFile::Hg(g) => self.range("fog.phase.hg", g, ranges::HG_G).map(Phase::Hg),
-            PhaseFile::MieMeanDiameter => Some(Phase::MieMeanDiameter),
-        };
+        let phase = self.phase(fog.phase);
+        let coefficient = self.coefficient(fog);
+        let sampling = self.sampling(fog);
         let datum_m = self.range("fog.datum_m", fog.datum_m, ranges::DATUM_M);
         let visibility =
             fog.visibility.as_ref().map_or(Some(None), |v| self.visibility(v, fog.height_m).map(Some));
-        let why = "one of advection, homogeneous, linear_gradient, layered";
+        let why = "one of advection, droplets, homogeneous, linear_gradient, layered";
         let name = self.required("fog.model", fog.model, why)?;
         self.foreign_keys(fog, name);
         let model = self.model(fog, name);
-        Some(FogSpec { model: model?, phase: phase?, visibility: visibility?, datum_m: datum_m? })
+        Some(FogSpec {
+            model: model?,
+            phase: phase?,
+            coefficient: coefficient?,
+            sampling: sampling?,
+            visibility: visibility?,
+            datum_m: datum_m?,
+        })
+    }
+
+    fn phase(&mut self, phase: PhaseFile) -> Option<Phase> {
+        match phase {
+            PhaseFile::Mie => Some(Phase::Mie),
+            PhaseFile::Hg(MeanCosineFile::Value(g)) => {
+                let g = self.range("fog.phase.hg", g, ranges::HG_G)?;
+                Some(Phase::Hg(MeanCosine::Value(g)))
+            }
+            PhaseFile::Hg(MeanCosineFile::Word(_)) => Some(Phase::Hg(MeanCosine::Layer)),
+            PhaseFile::MieMeanDiameter => Some(Phase::MieMeanDiameter),
+            PhaseFile::JendersieDeon(file) => {
+                let diameter_um = file.and_then(|file| file.diameter_um);
+                let path = "fog.phase.jendersie_deon.diameter_um";
+                let diameter_um = self.optional(path, diameter_um, ranges::FIT_DIAMETER_UM)?;
+                Some(Phase::JendersieDeon { diameter_um })
+            }
+        }
+    }
+
+    /// The coefficient of a layer whose extinction comes from droplets; another layer must not name one.
+    fn coefficient(&mut self, fog: &FogFile) -> Option<Coefficient> {
+        let Some(coefficient) = fog.coefficient else { return Some(Coefficient::default()) };
+        let given = match fog.model {
+            Some(Homogeneous) if fog.sigma_t_1_m.is_some() => Some("sigma_t_1_m"),
+            Some(LinearGradient) if fog.sigma_t_base_1_m.is_some() && fog.sigma_t_top_1_m.is_some() => {
+                Some("sigma_t_base_1_m and sigma_t_top_1_m")
+            }
+            Some(Layered) => Some("file"),
+            _ => None,
+        };
+        if let Some(given) = given {
+            let message =
+                format!("is about the extinction that droplets add up to, but here {given} says it");
+            self.problem("fog.coefficient", message);
+            return None;
+        }
+        Some(match coefficient {
+            CoefficientFile::Integral => Coefficient::Integral,
+            CoefficientFile::Paper => Coefficient::Paper,
+        })
+    }
+
+    fn sampling(&mut self, fog: &FogFile) -> Option<Sampling> {
+        match fog.sampling {
+            None | Some(SamplingFile::Table) => Some(Sampling::Table),
+            Some(SamplingFile::Diameter) if matches!(fog.phase, PhaseFile::Mie) => Some(Sampling::Diameter),
+            Some(SamplingFile::Diameter) => {
+                let message = "`diameter` draws droplets of the fog, which only `phase: mie` knows";
+                self.problem("fog.sampling", message);
+                None
+            }
+        }
     }
 
     fn visibility(&mut self, visibility: &VisibilityFile, height_m: Option<f64>) -> Option<Visibility> {
@@ -68,9 +131,12 @@ impl Check<'_> {
 
     /// Keys of another model: a sign of a mistake, so never ignored.
     fn foreign_keys(&mut self, fog: &FogFile, model: FogModelName) {
-        let keys: [(&str, bool, &[FogModelName]); 7] = [
+        let keys: [(&str, bool, &[FogModelName]); 10] = [
             ("height_m", fog.height_m.is_some(), &WITH_HEIGHT),
             ("number_density_scale", fog.number_density_scale.is_some(), &[Advection]),
+            ("droplets", fog.droplets.is_some(), &[Droplets]),
+            ("number_density_1_m3", fog.number_density_1_m3.is_some(), &[Droplets]),
+            ("vertical", fog.vertical.is_some(), &[Droplets]),
             ("sigma_t_1_m", fog.sigma_t_1_m.is_some(), &[Homogeneous]),
             ("sigma_t_base_1_m", fog.sigma_t_base_1_m.is_some(), &[LinearGradient]),
             ("sigma_t_top_1_m", fog.sigma_t_top_1_m.is_some(), &[LinearGradient]),
@@ -103,6 +169,7 @@ impl Check<'_> {
                 let scale = self.range("fog.number_density_scale", scale, ranges::DENSITY_SCALE);
                 FogModel::Advection { height_m: height?, number_density_scale: scale? }
             }
+            Droplets => self.parcel(fog, height)?,
             Homogeneous => {
                 let sigma_t = self.optional("fog.sigma_t_1_m", fog.sigma_t_1_m, ranges::SIGMA_T_1_M);
                 FogModel::Homogeneous {

@@ -1,5 +1,6 @@
 //! From the schema to a frame's content: ranges, required keys and rules between keys.
 
+mod droplets;
 mod fog;
 mod lighting;
 mod view;

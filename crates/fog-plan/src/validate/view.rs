@@ -91,5 +91,6 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::Tau => Output::Tau,
         OutputFile::Direct => Output::Direct,
         OutputFile::Airlight => Output::Airlight,
+        OutputFile::StandardError => Output::StandardError,
     }
 }
