@@ -13,7 +13,13 @@ use fog_tracer::settings::Settings;
 use rayon::prelude::*;
 
 /// Means of both integrators along a few rays at one wavelength agree within their noise.
-fn assert_agree(name: &str, scene: &Scene, rays: &[(f64, f64)], max_depth: Option<u32>, samples: u64) {
+pub(crate) fn assert_agree(
+    name: &str,
+    scene: &Scene,
+    rays: &[(f64, f64)],
+    max_depth: Option<u32>,
+    samples: u64,
+) {
     let observer = Observer::new();
     let settings = Settings { samples, max_depth, wavelength_nm: Some(600.0) };
     let tracer = PathTracer::new(scene, &observer, settings);

@@ -3,6 +3,8 @@
 mod analog;
 mod droplets;
 mod furnace;
+mod materials;
+mod materials_rendered;
 mod phases;
 mod radiances;
 mod samplers;

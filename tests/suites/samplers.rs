@@ -67,10 +67,7 @@ fn reflection() {
         metallic: 0.0,
         roughness,
         f0: [0.04; 3],
-        f90: 1.0,
-        ior: 1.5,
-        emission: [0.0; 3],
-        double_sided: false,
+        ..SurfaceParameters::default()
     };
     let lambert = SurfaceParameters { f0: [0.0; 3], f90: 0.0, ..dielectric(1.0) };
     let metal = |roughness| SurfaceParameters { metallic: 1.0, ..dielectric(roughness) };
@@ -128,10 +125,7 @@ fn reflection_is_reciprocal_and_conserves_energy() {
             metallic,
             roughness: 0.05 + 0.95 * roughness,
             f0: [0.2 * rng.uniform(); 3],
-            f90: 1.0,
-            ior: 1.5,
-            emission: [0.0; 3],
-            double_sided: false,
+            ..SurfaceParameters::default()
         };
         let bsdf = Bsdf::new(&material, &[Spectrum::ONE * (1.0 / 3.0); 3]);
         let up = |rng: &mut PathRng| {
@@ -149,10 +143,7 @@ fn reflection_is_reciprocal_and_conserves_energy() {
                 metallic,
                 roughness,
                 f0: [0.04; 3],
-                f90: 1.0,
-                ior: 1.5,
-                emission: [0.0; 3],
-                double_sided: false,
+                ..SurfaceParameters::default()
             };
             let bsdf = Bsdf::new(&material, &[Spectrum::ONE * (1.0 / 3.0); 3]);
             for cos in [0.1f32, 0.6, 1.0] {

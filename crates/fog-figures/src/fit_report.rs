@@ -42,8 +42,7 @@ pub fn fit_report(fit: &Fit) -> Result<Vec<Figure>, FiguresError> {
             polynomial: &fit.shapes[p].coefficients,
         })
         .collect();
-    let numbers: Vec<(Vec<[f64; 2]>, Vec<[f64; 2]>)> =
-        fit.heights_m.iter().map(|&height| number_curves(fit, height)).collect();
+    let numbers: Vec<_> = fit.heights_m.iter().map(|&height| number_curves(fit, height)).collect();
     let numbers: Vec<FitNumber<'_>> = (fit.heights_m.iter().zip(&numbers))
         .map(|(&height_m, (measured, model))| FitNumber { height_m, measured, model })
         .collect();

@@ -45,3 +45,8 @@ pub mod visibility;
 pub mod water;
 
 pub use fog_core::patchiness;
+
+/// The guide's example is compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/optics.md")]
+struct Guide;

@@ -5,6 +5,7 @@ use crate::bvh::Hit;
 use crate::emitters::{EmitterTriangle, Emitters};
 use crate::gltf_load::LoadedScene;
 use crate::light::{Environment, Sun};
+use crate::material::AlphaMode;
 use crate::medium::Medium;
 use crate::triangle::SurfacePoint;
 use fog_core::colour::{Rgb, upsample};
@@ -35,11 +36,14 @@ pub struct Surface {
     pub normal: Vec3A,
     /// World from shading frame (z = shading normal on that side).
     pub world_from_shading: Mat3A,
-    /// Reflection; `None` on the back of a single-sided material, which is black.
+    /// Scattering; `None` on the back of a single-sided material, which is black unless it is a transmitting sheet.
     pub bsdf: Option<Bsdf>,
     /// Relative radiance emitted towards the ray's origin.
     pub emission: Spectrum,
 }
+
+/// Largest share of light that counts as having passed before a surface is met, so that something is left to divide by.
+const LARGEST_CLEAR: f32 = 0.999_999;
 
 /// Points per triangle edge at which a textured emission is averaged to get the triangle's power.
 const POWER_GRID: u32 = 12;
@@ -70,52 +74,107 @@ impl Scene {
         &self.emitters
     }
 
-    /// Closest surface along a ray before `t_max`.
+    /// Closest surface along a ray before `t_max`; blended surfaces are there where they cover at least half, and glass is
+    /// a surface.
     #[inline]
     #[must_use]
     pub fn intersect(&self, origin: Vec3A, direction: Vec3A, t_max: f32) -> Option<Hit> {
         self.loaded.geometry.intersect(origin, direction, t_max)
     }
 
-    /// True if any surface lies on the ray before `t_max`.
+    /// True if paths need random bits ([`Scene::scatterer`]'s key) because some materials are partly transparent.
     #[inline]
     #[must_use]
-    pub fn occluded(&self, origin: Vec3A, direction: Vec3A, t_max: f32) -> bool {
-        self.loaded.geometry.occluded(origin, direction, t_max)
+    pub fn has_partial_opacity(&self) -> bool {
+        self.loaded.geometry.has_partial_opacity()
+    }
+
+    /// Closest surface that stops a ray before `t_max`. Partly transparent ones are passed by chance, which `key`, random
+    /// bits of this ray, decides.
+    #[inline]
+    #[must_use]
+    pub fn scatterer(&self, origin: Vec3A, direction: Vec3A, t_max: f32, key: u64) -> Option<Hit> {
+        self.loaded.geometry.intersect_by_chance(origin, direction, t_max, key)
+    }
+
+    /// True if any surface stops a ray before `t_max`: `scatterer(..).is_some()`, sooner.
+    #[inline]
+    #[must_use]
+    pub fn occluded(&self, origin: Vec3A, direction: Vec3A, t_max: f32, key: u64) -> bool {
+        self.loaded.geometry.occluded_by_chance(origin, direction, t_max, key)
     }
 
     /// Shading data of a hit seen along `direction`, at the wavelengths whose colour basis is `basis`.
+    ///
+    /// The hit is one that [`Scene::scatterer`] found: of clear glass it stands for the rays that were not let pass.
     #[must_use]
     pub fn surface(&self, hit: &Hit, direction: Vec3A, basis: &[Spectrum; 3]) -> Surface {
-        let point = self.loaded.geometry.surface(hit);
-        let material = &self.loaded.materials[point.material as usize];
+        let LoadedScene { geometry, materials, textures, .. } = &*self.loaded;
+        let point = geometry.surface(hit);
+        let material = &materials[point.material as usize];
         let front = point.geometric_normal.dot(direction) < 0.0;
         let side = if front { 1.0 } else { -1.0 };
-        let visible = front || material.double_sided;
-        let values = visible.then(|| material.evaluate(&self.loaded.textures, &point.uv));
-        let emission = values.filter(|_| !self.emitters.is_empty()).map_or([0.0; 3], |v| v.emission);
-        Surface {
+        let world_from_shading = warp::frame(point.shading_normal * side);
+        let mut surface = Surface {
             point,
             normal: point.geometric_normal * side,
-            world_from_shading: warp::frame(point.shading_normal * side),
-            bsdf: values.map(|v| Bsdf::new(&v, basis)),
-            emission: upsample(emission, basis),
+            world_from_shading,
+            bsdf: None,
+            emission: Spectrum::ZERO,
+        };
+        // Both sides of a transmitting sheet are surfaces of it.
+        if !(front || material.double_sided || material.transmission > 0.0) {
+            return surface;
         }
+        let mut values = material.evaluate(textures, &point.uv);
+        if let Some(color) = geometry.colors().at(hit) {
+            values = values.tinted(color);
+        }
+        let mut bsdf = Bsdf::new(&values, basis);
+        if let Some(normal) = material.mapped_normal(textures, &point.uv) {
+            let mapped = tangent_frame(&point, geometry.tangents().at(hit)).map(|frame| frame * normal);
+            bsdf = mapped.map_or(bsdf, |n| bsdf.with_normal(world_from_shading.transpose() * (n * side)));
+        }
+        let cos = point.shading_normal.dot(direction).abs();
+        let clear = values.clear_share(cos);
+        surface.bsdf = Some(if clear > 0.0 { bsdf.beside_clear(clear.min(LARGEST_CLEAR)) } else { bsdf });
+        if !self.emitters.is_empty() && (front || material.double_sided) {
+            let share = values.coat_transmittance(cos) / (1.0 - clear.min(LARGEST_CLEAR));
+            surface.emission = upsample(values.emission, basis) * share;
+        }
+        surface
     }
 
-    /// Relative radiance that a point of an emitting triangle sends towards `-direction` (the ray's origin).
+    /// Relative radiance that a point of an emitting triangle sends towards `-direction` (the ray's origin), weighted by
+    /// the share of the surface that is there; and the triangle's normal.
     #[must_use]
     pub fn emission_towards(&self, hit: &Hit, direction: Vec3A) -> (Rgb, Vec3A) {
-        let point = self.loaded.geometry.surface(hit);
-        let material = &self.loaded.materials[point.material as usize];
+        let LoadedScene { geometry, materials, textures, .. } = &*self.loaded;
+        let point = geometry.surface(hit);
+        let material = &materials[point.material as usize];
         let front = point.geometric_normal.dot(direction) < 0.0;
-        let rgb = if front || material.double_sided {
-            material.emission(&self.loaded.textures, &point.uv)
-        } else {
-            [0.0; 3]
-        };
+        if !(front || material.double_sided) {
+            return ([0.0; 3], point.geometric_normal);
+        }
+        let mut rgb = material.emission(textures, &point.uv);
+        if material.alpha_mode != AlphaMode::Opaque || material.clearcoat > 0.0 {
+            let alpha = geometry.colors().at(hit).map_or(1.0, |c| c[3]);
+            let coat = material.evaluate(textures, &point.uv);
+            let share = material.coverage(textures, &point.uv, alpha)
+                * coat.coat_transmittance(point.shading_normal.dot(direction).abs());
+            rgb = rgb.map(|c| c * share);
+        }
         (rgb, point.geometric_normal)
     }
+}
+
+/// World from tangent space at a point with an interpolated tangent: tangent, bitangent, normal (glTF 2.0, sec. 3.7.2.1).
+fn tangent_frame(point: &SurfacePoint, tangent: Option<[f32; 4]>) -> Option<Mat3A> {
+    let [x, y, z, sign] = tangent?;
+    let normal = point.shading_normal;
+    let along = Vec3A::new(x, y, z);
+    let tangent = (along - normal * normal.dot(along)).try_normalize()?;
+    Some(Mat3A::from_cols(tangent, normal.cross(tangent) * 1.0f32.copysign(sign), normal))
 }
 
 /// All triangles whose material emits, with their power up to a common factor.
@@ -132,8 +191,10 @@ fn find_emitters(loaded: &LoadedScene) -> Emitters {
         for i in 0..POWER_GRID {
             for j in 0..POWER_GRID - i {
                 let at = |k: u32| (k as f32 + 1.0 / 3.0) / POWER_GRID as f32;
-                let rgb = material.emission(&loaded.textures, &triangle.uv_at(at(i), at(j)));
-                sum += f64::from(rgb.iter().sum::<f32>());
+                let uv = triangle.uv_at(at(i), at(j));
+                let rgb = material.emission(&loaded.textures, &uv);
+                let coverage = material.coverage(&loaded.textures, &uv, 1.0);
+                sum += f64::from(rgb.iter().sum::<f32>() * coverage);
             }
         }
         let sides = if material.double_sided { 2.0 } else { 1.0 };

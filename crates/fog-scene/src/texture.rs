@@ -1,5 +1,6 @@
 //! Images of 8 bits a channel, looked up as glTF's samplers do at their finest level.
 
+use crate::uv_transform::UvTransform;
 use std::sync::Arc;
 
 /// What the bytes of a texture's colour channels mean; alpha is always linear.
@@ -60,13 +61,14 @@ impl Image {
     }
 }
 
-/// An image with its sampler.
+/// An image with its sampler and the place of the texture in it.
 #[derive(Clone, Debug)]
 pub struct Texture {
     image: Arc<Image>,
     filter: Filter,
     wrap: [Wrap; 2],
     decode: Arc<[f32; 256]>,
+    transform: Option<UvTransform>,
 }
 
 impl Texture {
@@ -77,7 +79,20 @@ impl Texture {
             let x = byte as f32 / 255.0;
             if encoding == Encoding::Srgb { fog_core::colour::srgb_decode(x) } else { x }
         });
-        Self { image, filter, wrap, decode: Arc::new(decode) }
+        Self { image, filter, wrap, decode: Arc::new(decode), transform: None }
+    }
+
+    /// The same texture read at other coordinates.
+    #[must_use]
+    pub fn moved(self, transform: UvTransform) -> Self {
+        Self { transform: Some(transform), ..self }
+    }
+
+    /// Coordinates in the image of texture coordinates.
+    #[inline]
+    #[must_use]
+    pub fn image_coordinates(&self, uv: [f32; 2]) -> [f32; 2] {
+        self.transform.map_or(uv, |transform| transform.apply(uv))
     }
 
     /// The image behind the sampler.
@@ -95,6 +110,7 @@ impl Texture {
     /// Linear RGBA in [0, 1] at texture coordinates; (0, 0) is the upper left corner of the image, v runs down.
     #[must_use]
     pub fn sample(&self, uv: [f32; 2]) -> [f32; 4] {
+        let uv = self.image_coordinates(uv);
         let size = self.image.size();
         let inside: [f32; 2] = core::array::from_fn(|i| self.wrap[i].reduce(uv[i]) * size[i] as f32);
         match self.filter {

@@ -2,9 +2,12 @@
 
 mod common;
 
-use common::{TRIANGLE, data, document, glb, load_bytes, refusal};
+use common::{TRIANGLE, attribute, data, document, floats, glb, load_bytes, refusal, textured};
+use fog_core::Vec3A;
 use fog_core::random::PathRng;
-use fog_scene::{Limits, SceneErrorKind, load};
+use fog_core::spectrum::Spectrum;
+use fog_scene::scene::Scene;
+use fog_scene::{Limits, LoadedScene, SceneErrorKind, load};
 use serde_json::{Value, json};
 
 #[test]
@@ -42,16 +45,58 @@ fn truncation_at_any_length() {
     }
 }
 
+/// A small file with every kind of material.
+fn rich() -> Vec<u8> {
+    let info =
+        json!({"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1}}});
+    let (mut root, mut bin) = textured(
+        &[[200, 90, 220, 255], [128, 128, 255, 99]],
+        json!({"normalTexture": {"index": 0, "scale": 0.5}, "alphaMode": "BLEND", "doubleSided": true,
+               "pbrMetallicRoughness": {"baseColorTexture": info, "metallicFactor": 0.5},
+               "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": info}}}),
+    );
+    attribute(&mut root, &mut bin, "COLOR_0", "VEC3", 5126, &floats(&[0.5; 9]));
+    let glass = json!({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": info}},
+                       "pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}});
+    root["materials"].as_array_mut().unwrap().push(glass);
+    let mut pane = root["meshes"][0]["primitives"][0].clone();
+    pane["material"] = 1.into();
+    root["meshes"][0]["primitives"].as_array_mut().unwrap().push(pane);
+    glb(&root, &bin)
+}
+
+/// Rays through the middle of whatever was loaded, and what they scatter, are numbers.
+fn look_at(scene: LoadedScene) {
+    let Some([low, high]) = scene.geometry.bounds() else { return };
+    let target = low + (high - low) * 0.3;
+    let scene = Scene::new(std::sync::Arc::new(scene), None, None, None, true);
+    let basis = [Spectrum::ONE * (1.0 / 3.0); 3];
+    let mut rng = PathRng::new(4, 0, 0);
+    for direction in [Vec3A::NEG_Z, Vec3A::Z] {
+        let origin = target - direction * 2.0;
+        let Some(hit) = scene.scatterer(origin, direction, f32::INFINITY, rng.next_u64()) else { continue };
+        let surface = scene.surface(&hit, direction, &basis);
+        let to_local = surface.world_from_shading.transpose();
+        for _ in 0..4 {
+            let sample =
+                surface.bsdf.and_then(|b| b.sample(to_local * -direction, rng.uniform(), rng.uniform2()));
+            let Some(sample) = sample else { continue };
+            assert!(sample.wi.is_finite() && sample.weight.max_lane().is_finite(), "{sample:?}");
+        }
+    }
+}
+
 #[test]
 fn flipped_bytes_never_panic() {
     let (mut root, bin) = document(&TRIANGLE, 4);
     root["materials"] = json!([{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1]}}]);
     let small = glb(&root, &bin);
     let street = fog_scene::generate::generate("street").unwrap();
+    assert_eq!(load_bytes("rich.glb", &rich()).unwrap().geometry.triangles().len(), 2);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("flipped.glb");
     let mut loaded = 0;
-    for (bytes, rounds) in [(small, 4000), (street, 1500)] {
+    for (bytes, rounds) in [(small, 3000), (rich(), 2000), (street, 1500)] {
         for round in 0..rounds {
             let mut rng = PathRng::new(3, round, bytes.len() as u64);
             let mut bad = bytes.clone();
@@ -64,7 +109,10 @@ fn flipped_bytes_never_panic() {
                 };
             }
             std::fs::write(&path, &bad).unwrap();
-            loaded += usize::from(load(&path, &Limits::default()).is_ok());
+            if let Ok(scene) = load(&path, &Limits::default()) {
+                loaded += 1;
+                look_at(scene);
+            }
         }
     }
     assert!(loaded > 0);
@@ -136,7 +184,9 @@ fn extensions_and_images() {
     root["extensionsRequired"] =
         json!(["KHR_materials_ior", "KHR_draco_mesh_compression", "KHR_texture_basisu"]);
     let message = refusal(&root, &bin);
-    assert!(message.ends_with("not supported: KHR_draco_mesh_compression, KHR_texture_basisu"), "{message}");
+    let expected = "not supported: KHR_draco_mesh_compression (decompress with `gltf-transform copy in.glb out.glb`), \
+                    KHR_texture_basisu (convert KTX2 images with `gltf-transform ktxdecompress in.glb out.glb`)";
+    assert!(message.ends_with(expected), "{message}");
     root["extensionsRequired"] = json!([]);
     root["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
     assert!(refusal(&root, &bin).contains("texture 0: has no PNG or JPEG source"));

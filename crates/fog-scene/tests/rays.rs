@@ -3,7 +3,7 @@
 use fog_core::random::PathRng;
 use fog_core::warp::uniform_sphere;
 use fog_scene::{
-    AlphaMode, Encoding, Filter, Geometry, Image, Material, Texture, TextureRef, Triangle, Wrap,
+    AlphaMode, Encoding, Filter, Geometry, Image, Material, Opacity, Texture, TextureRef, Triangle, Wrap,
 };
 use glam::{Vec3, Vec3A};
 use std::sync::Arc;
@@ -193,7 +193,9 @@ fn cut_out_texels_are_passed() {
     let mut front = Triangle { material: 1, ..Triangle::flat(corners(1.0)) };
     front.uv[1] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let wall = Triangle::flat(corners(0.0));
-    let geometry = Geometry::new(vec![wall, front], vec![None, leaf.alpha_mask(&[texture])]);
+    let opacities = vec![None, Opacity::new(&leaf, &Arc::from([texture]))];
+    let geometry = Geometry::new(vec![wall, front], opacities);
+    assert!(!geometry.has_partial_opacity());
     let seen = |x: f32| geometry.intersect(Vec3A::new(x, 0.1, 5.0), Vec3A::NEG_Z, 9.0).map(|h| h.triangle);
     assert_eq!((seen(0.9), seen(1.1), seen(2.5)), (Some(1), Some(0), None));
     let blocked = |x: f32| geometry.occluded(Vec3A::new(x, 0.1, 5.0), Vec3A::NEG_Z, 4.5);

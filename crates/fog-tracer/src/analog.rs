@@ -28,8 +28,9 @@ impl PathTracer<'_> {
                 medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile)
             });
             let t_max = flight.map_or(f32::INFINITY, |t| t as f32);
-            if let Some(hit) = self.scene.intersect(origin, direction, t_max) {
-                // A surface: add what it emits, reflect by its BSDF.
+            let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
+            if let Some(hit) = self.scene.scatterer(origin, direction, t_max, key) {
+                // A surface: add what it emits, reflect or transmit by its BSDF.
                 let surface = self.scene.surface(&hit, direction, &basis);
                 sum += beta * surface.emission[0];
                 let to_local = surface.world_from_shading.transpose();
@@ -37,7 +38,7 @@ impl PathTracer<'_> {
                     surface.bsdf.and_then(|b| b.sample(to_local * -direction, rng.uniform(), rng.uniform2()));
                 let Some(sample) = sample else { return sum };
                 direction = (surface.world_from_shading * sample.wi).normalize();
-                if direction.dot(surface.normal) <= 0.0 {
+                if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
                     return sum;
                 }
                 beta *= sample.weight[0];

@@ -154,7 +154,8 @@ impl<'a> PathTracer<'a> {
             medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile).map(|t| (t, tau))
         });
         let t_max = collision.map_or(f32::INFINITY, |(t, _)| t as f32);
-        match (self.scene.intersect(path.origin, path.direction, t_max), collision) {
+        // The number that chose the flight's length also tells partly transparent surfaces from holes.
+        match (self.scene.scatterer(path.origin, path.direction, t_max, u.to_bits()), collision) {
             (Some(hit), _) => Event::Surface(hit),
             (None, Some((t, tau))) => Event::Collision { t, tau },
             (None, None) => Event::Escape,
@@ -279,8 +280,10 @@ impl<'a> PathTracer<'a> {
             return Spectrum::ZERO;
         };
         let to_local = s.world_from_shading.transpose();
-        let (value, pdf) = bsdf.eval(to_local * -path.direction, to_local * light.direction);
-        if pdf == 0.0 || s.normal.dot(light.direction) <= 0.0 {
+        let wi = to_local * light.direction;
+        let (value, pdf) = bsdf.eval(to_local * -path.direction, wi);
+        // Shading frame and triangle must agree on the side that the light is on.
+        if pdf == 0.0 || s.normal.dot(light.direction) * wi.z <= 0.0 {
             return Spectrum::ZERO;
         }
         let origin = s.point.spawn_origin(light.direction);
@@ -307,7 +310,8 @@ impl<'a> PathTracer<'a> {
         if keep < 1.0 && rng.uniform() >= keep {
             return Spectrum::ZERO;
         }
-        if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4)) {
+        let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
+        if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4), key) {
             return Spectrum::ZERO;
         }
         sum * (1.0 / keep)
@@ -324,13 +328,13 @@ impl<'a> PathTracer<'a> {
     }
 }
 
-/// Reflects the path at a surface; false if it ends there.
+/// Reflects the path at a surface or sends it through; false if it ends there.
 fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
     let Some(bsdf) = &surface.bsdf else { return false };
     let wo = surface.world_from_shading.transpose() * -path.direction;
     let Some(sample) = bsdf.sample(wo, rng.uniform(), rng.uniform2()) else { return false };
     let direction = (surface.world_from_shading * sample.wi).normalize();
-    if direction.dot(surface.normal) <= 0.0 {
+    if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return false;
     }
     path.beta *= sample.weight;

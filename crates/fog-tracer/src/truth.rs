@@ -1,4 +1,7 @@
 //! Ground truth of pixel-centre rays: distances and the fog in front of them, computed and never sampled.
+//!
+//! The first surface of a ray may be glass, through which the image shows what is behind. Blended surfaces count where they
+//! cover at least half, cut-out ones where they are solid.
 
 use fog_core::math;
 use fog_film::Truth;

@@ -72,8 +72,8 @@ fn a_droplet_has_the_index_of_water() {
 #[test]
 fn mistakes_name_value_and_range() {
     for (args, expected) in [
-        (&["--index", "1.5", "--size-parameter", "0"][..], "size parameter is 0; valid: 0.000001 to 100000"),
-        (&["--index", "1.5", "--size-parameter", "1e6"], "size parameter is 1000000"),
+        (&["--index", "1.5", "--size-parameter", "0"][..], "size parameter is 0; valid: 1e-6 to 100000"),
+        (&["--index", "1.5", "--size-parameter", "1e6"], "size parameter is 1000000; valid: 1e-6 to 100000"),
         (&["--index", "-1.5", "--size-parameter", "1"], "refractive index n is -1.5; valid: 0.1 to 10"),
         (&["--index", "1.5,-0.1", "--size-parameter", "1"], "refractive index k is -0.1"),
         (&["--index", "water", "--size-parameter", "1"], "expected a finite number"),

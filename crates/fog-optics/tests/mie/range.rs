@@ -87,7 +87,7 @@ fn batches_are_single_spheres() {
     let blind = batch(m, &[2.0], &[]).unwrap();
     assert!(blind.efficiencies.len() == 1 && blind.intensities.is_empty());
     let error = batch(m, &[1.0, -3.0], &ANGLES).unwrap_err().to_string();
-    assert!(error.contains("size parameter is -3") && error.contains("0.000001 to 100000"), "{error}");
+    assert!(error.contains("size parameter is -3") && error.contains("1e-6 to 100000"), "{error}");
 }
 
 /// Even in the logarithm.

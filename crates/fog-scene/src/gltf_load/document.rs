@@ -1,27 +1,16 @@
 //! From JSON to a document whose references all exist.
 
-use super::Warnings;
+use super::{Warnings, extensions};
 use crate::error::{Failure, SceneErrorKind};
 use gltf::Document;
 use gltf::json::{self, Root, validation::Checked};
-
-/// Extensions that are honoured.
-const SUPPORTED: [&str; 3] =
-    ["KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"];
 
 /// Parses and checks the JSON text.
 pub(super) fn parse(text: &[u8], warnings: &mut Warnings) -> Result<Document, Failure> {
     let invalid_json = |e: serde_json::Error| SceneErrorKind::Json(e.to_string());
     let mut root: Root = json::deserialize::from_slice(text).map_err(invalid_json)?;
 
-    let unknown: Vec<&str> =
-        root.extensions_required.iter().map(String::as_str).filter(|e| !SUPPORTED.contains(e)).collect();
-    if !unknown.is_empty() {
-        return Err(SceneErrorKind::RequiredExtensions(unknown.join(", ")).into());
-    }
-    for extension in root.extensions_used.iter().filter(|e| !SUPPORTED.contains(&e.as_str())) {
-        warnings.add(format!("extension {extension} is not supported and was ignored"));
-    }
+    extensions::check(&root, warnings)?;
     // The gltf crate would refuse KHR_materials_specular here although it reads it.
     root.extensions_required.clear();
 
@@ -57,7 +46,8 @@ fn check_references(root: &Root) -> Result<(), Failure> {
     }
     for (i, texture) in root.textures.iter().enumerate() {
         if texture.source.value() >= root.images.len() {
-            let text = "has no PNG or JPEG source (WebP, KTX and DDS images are not supported)";
+            let text = "has no PNG or JPEG source; convert WebP and AVIF images with `gltf-transform png`, KTX2 images with \
+                        `gltf-transform ktxdecompress`";
             return Err(SceneErrorKind::Image(text.into()).at(|| format!("texture {i}")));
         }
     }

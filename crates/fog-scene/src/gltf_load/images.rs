@@ -4,6 +4,7 @@ use super::accessor::Buffers;
 use super::files::Files;
 use crate::error::{Failure, SceneErrorKind};
 use crate::texture::{Encoding, Filter, Image, Texture, Wrap};
+use crate::uv_transform::UvTransform;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::{Document, image::Source};
 use image::{ImageFormat, ImageReader};
@@ -19,7 +20,7 @@ pub(super) struct Images<'a> {
     limit: u64,
     pixels_left: u64,
     images: BTreeMap<usize, Arc<Image>>,
-    by_use: BTreeMap<(usize, bool), u32>,
+    by_use: BTreeMap<(usize, bool, Option<[u32; 6]>), u32>,
     textures: Vec<Texture>,
 }
 
@@ -42,13 +43,14 @@ impl<'a> Images<'a> {
         }
     }
 
-    /// Index of a glTF texture read in an encoding; decodes its image at its first use.
+    /// Index of a glTF texture read in an encoding and at moved coordinates; decodes its image at its first use.
     pub(super) fn texture(
         &mut self,
         texture: &gltf::Texture<'_>,
         encoding: Encoding,
+        transform: Option<UvTransform>,
     ) -> Result<u32, Failure> {
-        let key = (texture.index(), encoding == Encoding::Srgb);
+        let key = (texture.index(), encoding == Encoding::Srgb, transform.map(|t| t.bits()));
         if let Some(&index) = self.by_use.get(&key) {
             return Ok(index);
         }
@@ -64,9 +66,18 @@ impl<'a> Images<'a> {
             WrappingMode::Repeat => Wrap::Repeat,
         });
         let index = self.textures.len() as u32;
-        self.textures.push(Texture::new(image, encoding, filter, wrap));
+        let texture = Texture::new(image, encoding, filter, wrap);
+        self.textures.push(match transform {
+            Some(transform) => texture.moved(transform),
+            None => texture,
+        });
         self.by_use.insert(key, index);
         Ok(index)
+    }
+
+    /// A texture of the file.
+    pub(super) fn document_texture(&self, index: usize) -> Option<gltf::Texture<'a>> {
+        self.document.textures().nth(index)
     }
 
     /// All textures asked for, by index.
@@ -104,7 +115,7 @@ fn decode(bytes: &[u8], pixels: u64, limit: u64) -> Result<Image, SceneErrorKind
     let format = match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
         _ => {
-            let text = format!("is {}; only PNG and JPEG are supported", kind_of(bytes));
+            let text = format!("is {}; only PNG and JPEG are supported{}", kind_of(bytes), advice(bytes));
             return Err(SceneErrorKind::Image(text));
         }
     };
@@ -124,6 +135,15 @@ fn decode(bytes: &[u8], pixels: u64, limit: u64) -> Result<Image, SceneErrorKind
     let (width, height) = rgba.dimensions();
     let (texels, _) = rgba.as_raw().as_chunks::<4>();
     Image::new(width, height, texels.to_vec()).ok_or_else(|| SceneErrorKind::Image("is empty".into()))
+}
+
+/// What makes an image readable.
+fn advice(bytes: &[u8]) -> &'static str {
+    match kind_of(bytes) {
+        "a WebP image" => ": convert with `gltf-transform png in.glb out.glb`",
+        "a KTX image" => ": convert with `gltf-transform ktxdecompress in.glb out.glb`",
+        _ => "",
+    }
 }
 
 /// Names the formats that glTF files may meet.

@@ -3,18 +3,22 @@
 mod accessor;
 mod container;
 mod document;
+mod extensions;
 mod files;
 mod images;
+mod material_reader;
 mod materials;
 mod nodes;
 mod primitives;
+mod tangents;
 mod uri;
 
 use crate::error::{Failure, SceneError};
 use crate::geometry::Geometry;
-use crate::material::Material;
+use crate::material::{Material, Opacity};
 use crate::texture::Texture;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What a scene file may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,9 +113,10 @@ fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
     // Primitives without a material use glTF's default one, which comes last.
     materials.push(Material::default());
 
-    let nodes::Flat { triangles, objects } =
-        nodes::flatten(&document, &buffers, &materials, limits.max_triangles, &mut warnings)?;
-    let masks = materials.iter().map(|material| material.alpha_mask(&textures)).collect();
-    let geometry = Geometry::new(triangles, masks);
+    let nodes::Flat { triangles, colors, tangents, objects } =
+        nodes::flatten(&document, &buffers, (&materials, &textures), limits.max_triangles, &mut warnings)?;
+    let shared: Arc<[Texture]> = textures.iter().cloned().collect();
+    let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
+    let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
     Ok(LoadedScene { geometry, materials, textures, objects, warnings: warnings.0 })
 }

@@ -3,8 +3,10 @@
 use super::accessor::Buffers;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneObject, Warnings};
+use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::material::Material;
+use crate::texture::Texture;
 use crate::triangle::Triangle;
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
 use gltf::scene::Transform;
@@ -19,6 +21,8 @@ const FARTHEST: f64 = 1e9;
 #[derive(Default)]
 pub(super) struct Flat {
     pub(super) triangles: Vec<Triangle>,
+    pub(super) colors: CornerValues,
+    pub(super) tangents: CornerValues,
     pub(super) objects: Vec<SceneObject>,
 }
 
@@ -34,7 +38,7 @@ struct Inherited {
 pub(super) fn flatten(
     document: &Document,
     buffers: &Buffers,
-    materials: &[Material],
+    (materials, textures): (&[Material], &[Texture]),
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -73,7 +77,8 @@ pub(super) fn flatten(
             let primitives = match meshes.get(&mesh.index()) {
                 Some(primitives) => Rc::clone(primitives),
                 None => {
-                    let read = primitives::read(&mesh, buffers, max_triangles, warnings)?;
+                    let read =
+                        primitives::read(&mesh, buffers, (materials, textures), max_triangles, warnings)?;
                     check_texture_sets(&read, &mesh_name(&mesh), materials, warnings);
                     let read: Rc<[Primitive]> = read.into();
                     meshes.insert(mesh.index(), Rc::clone(&read));
@@ -93,7 +98,7 @@ pub(super) fn flatten(
                 })?;
                 let material = primitive.material.unwrap_or(materials.len() - 1) as u32;
                 let place = || format!("node `{name}`, mesh `{}`", mesh_name(&mesh));
-                degenerate += place_triangles(primitive, &here.world, material, object, &mut flat.triangles)
+                degenerate += place_triangles(primitive, &here.world, material, object, &mut flat)
                     .map_err(|e| e.at(place))?;
             }
         }
@@ -149,7 +154,7 @@ fn place_triangles(
     world: &DMat4,
     material: u32,
     object: u32,
-    out: &mut Vec<Triangle>,
+    out: &mut Flat,
 ) -> Result<u64, SceneErrorKind> {
     // Normals turn with the cofactor matrix, det · inverse transpose; a mirror also turns the winding.
     let linear = DMat3::from_mat4(*world);
@@ -158,11 +163,9 @@ fn place_triangles(
     let cofactor = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * if mirrored { -1.0 } else { 1.0 };
 
     let mut dropped = 0;
-    for &[first, mut second, mut third] in &primitive.triangles {
-        if mirrored {
-            core::mem::swap(&mut second, &mut third);
-        }
-        let corners = [first, second, third];
+    for (index, &vertices) in primitive.triangles.iter().enumerate() {
+        let turned = |[a, b, c]: [u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let corners = turned(vertices);
         let mut positions = [Vec3::ZERO; 3];
         for (position, vertex) in positions.iter_mut().zip(corners) {
             let local = DVec3::from_array(primitive.positions[vertex as usize].map(f64::from));
@@ -192,7 +195,21 @@ fn place_triangles(
         for (uv, set) in triangle.uv.iter_mut().zip(&primitive.uv) {
             *uv = corners.map(|vertex| set.get(vertex as usize).copied().unwrap_or_default());
         }
-        out.push(triangle);
+        let id = out.triangles.len() as u32;
+        if !primitive.colors.is_empty() {
+            out.colors.push(id, corners.map(|vertex| primitive.colors[vertex as usize]));
+        }
+        if let Some(tangents) = primitive.tangents.get(index) {
+            // A mirror turns the side that the bitangent is on.
+            let sign = if mirrored { -1.0 } else { 1.0 };
+            let placed = tangents.map(|[x, y, z, w]| {
+                let world = linear * DVec3::new(x.into(), y.into(), z.into());
+                let [x, y, z] = world.normalize_or_zero().as_vec3().to_array();
+                [x, y, z, w * sign]
+            });
+            out.tangents.push(id, turned([0, 1, 2]).map(|corner| placed[corner as usize]));
+        }
+        out.triangles.push(triangle);
     }
     Ok(dropped)
 }
@@ -201,9 +218,7 @@ fn place_triangles(
 fn check_texture_sets(primitives: &[Primitive], mesh: &str, materials: &[Material], warnings: &mut Warnings) {
     for primitive in primitives {
         let Some(material) = primitive.material.and_then(|index| materials.get(index)) else { continue };
-        let textures =
-            [material.base_color_texture, material.metallic_roughness_texture, material.emissive_texture];
-        for texture in textures.into_iter().flatten() {
+        for texture in material.textures() {
             if primitive.uv[usize::from(texture.set & 1)].is_empty() && !primitive.positions.is_empty() {
                 warnings.add(format!(
                     "mesh `{mesh}` has no TEXCOORD_{} for material `{}`: its texture is read at (0, 0)",

@@ -1,8 +1,12 @@
 //! The triangles of a mesh in its own space.
 
-use super::Warnings;
 use super::accessor::Buffers;
+use super::{Warnings, tangents};
 use crate::error::{Failure, SceneErrorKind};
+use crate::material::Material;
+use crate::texture::Texture;
+use gltf::Accessor;
+use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Semantic};
 
 /// Vertices and triangles of one primitive.
@@ -12,6 +16,10 @@ pub(super) struct Primitive {
     pub(super) normals: Vec<[f32; 3]>,
     /// Each as many as positions, or none at all.
     pub(super) uv: [Vec<[f32; 2]>; 2],
+    /// `COLOR_0`, in [0, 1], white alpha if it has none; as many as positions, or none at all.
+    pub(super) colors: Vec<[f32; 4]>,
+    /// Tangents at the corners of each triangle, as many as triangles, or none at all: only for normal maps.
+    pub(super) tangents: Vec<[[f32; 4]; 3]>,
     /// Vertices of each triangle, all in range.
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) material: Option<usize>,
@@ -26,6 +34,7 @@ pub(super) fn mesh_name(mesh: &gltf::Mesh<'_>) -> String {
 pub(super) fn read(
     mesh: &gltf::Mesh<'_>,
     buffers: &Buffers,
+    (materials, textures): (&[Material], &[Texture]),
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Vec<Primitive>, Failure> {
@@ -38,7 +47,7 @@ pub(super) fn read(
             continue;
         }
         for (present, what) in [
-            (primitive.get(&Semantic::Colors(0)).is_some(), "vertex colours"),
+            (primitive.get(&Semantic::Colors(1)).is_some(), "vertex colours after the first"),
             (primitive.get(&Semantic::Joints(0)).is_some(), "skinning"),
             (primitive.morph_targets().len() > 0, "morph targets"),
         ] {
@@ -46,7 +55,11 @@ pub(super) fn read(
                 warnings.add(format!("{what} of mesh `{name}` were ignored"));
             }
         }
-        let read = read_one(&primitive, buffers, max_triangles);
+        let material = primitive.material().index().and_then(|index| materials.get(index));
+        let normal_map = material
+            .and_then(|material| material.normal_map)
+            .and_then(|map| Some((map.texture.set, textures.get(map.texture.texture as usize)?)));
+        let read = read_one(&primitive, buffers, normal_map, max_triangles);
         let (primitive, leftover) = read.map_err(|text| {
             let place = || format!("mesh `{name}`, primitive {}", primitive.index());
             SceneErrorKind::Accessor(text).at(place)
@@ -65,6 +78,7 @@ pub(super) fn read(
 fn read_one(
     primitive: &gltf::Primitive<'_>,
     buffers: &Buffers,
+    normal_map: Option<(u8, &Texture)>,
     max_triangles: usize,
 ) -> Result<(Primitive, bool), String> {
     // A triangle has three corners: more vertices or indices than that are over the limit, or of no use.
@@ -94,6 +108,16 @@ fn read_one(
             same_length(uv.len(), &semantic)?;
         }
     }
+    let mut colors = Vec::new();
+    if let Some(accessor) = primitive.get(&Semantic::Colors(0)) {
+        colors = read_colors(&accessor, buffers, most).map_err(named("COLOR_0"))?;
+        same_length(colors.len(), "COLOR_0")?;
+    }
+    let mut of_vertices = Vec::new();
+    if let Some(accessor) = primitive.get(&Semantic::Tangents).filter(|_| normal_map.is_some()) {
+        of_vertices = buffers.floats::<4>(&accessor, most).map_err(named("TANGENT"))?;
+        same_length(of_vertices.len(), "TANGENT")?;
+    }
     let indices = match primitive.indices() {
         Some(accessor) => buffers.indices(&accessor, most).map_err(named("indices"))?,
         None => (0..positions.len() as u32).collect(),
@@ -107,7 +131,32 @@ fn read_one(
         _ => matches!(indices.len(), 1 | 2),
     };
     let material = primitive.material().index();
-    Ok((Primitive { positions, normals, uv, triangles, material }, leftover))
+    let tangents = Vec::new();
+    let mut out = Primitive { positions, normals, uv, colors, tangents, triangles, material };
+    // Tangents belong to normals: a file without these has no use for those.
+    if !of_vertices.is_empty() && !out.normals.is_empty() {
+        out.tangents = out.triangles.iter().map(|t| t.map(|vertex| of_vertices[vertex as usize])).collect();
+    } else if let Some((set, texture)) = normal_map {
+        out.tangents = tangents::generate(&out, set, texture);
+    }
+    Ok((out, leftover))
+}
+
+/// Vertex colours of three or four components; what is outside of [0, 1] is cut off, for no surface reflects it.
+fn read_colors(accessor: &Accessor<'_>, buffers: &Buffers, most: usize) -> Result<Vec<[f32; 4]>, String> {
+    let mut colors = if accessor.dimensions() == Dimensions::Vec3 {
+        let colors = buffers.floats::<3>(accessor, most)?;
+        colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect()
+    } else {
+        buffers.floats::<4>(accessor, most)?
+    };
+    for (vertex, color) in colors.iter_mut().enumerate() {
+        if !color.iter().all(|c| c.is_finite()) {
+            return Err(format!("of vertex {vertex} is {color:?}: not finite"));
+        }
+        *color = color.map(|c| c.clamp(0.0, 1.0));
+    }
+    Ok(colors)
 }
 
 /// Triangles of a list, strip or fan, all of one winding (glTF 2.0, section 3.7.2.1).

@@ -66,3 +66,52 @@ pub fn repository() -> PathBuf {
 pub fn data(name: &str) -> PathBuf {
     repository().join("tests/data").join(name)
 }
+
+/// A PNG of one row of texels.
+pub fn png(texels: &[[u8; 4]]) -> Vec<u8> {
+    let mut out = std::io::Cursor::new(Vec::new());
+    let pixels = image::RgbaImage::from_raw(texels.len() as u32, 1, texels.as_flattened().to_vec()).unwrap();
+    pixels.write_to(&mut out, image::ImageFormat::Png).unwrap();
+    out.into_inner()
+}
+
+/// Puts bytes behind a document's binary chunk as a new buffer view; its index.
+pub fn append(root: &mut Value, bin: &mut Vec<u8>, bytes: &[u8]) -> usize {
+    bin.resize(bin.len().next_multiple_of(4), 0);
+    let views = root["bufferViews"].as_array_mut().unwrap();
+    views.push(json!({"buffer": 0, "byteOffset": bin.len(), "byteLength": bytes.len()}));
+    let view = views.len() - 1;
+    bin.extend_from_slice(bytes);
+    root["buffers"][0]["byteLength"] = bin.len().into();
+    view
+}
+
+/// Gives the document's mesh an attribute of this component type (glTF's number).
+pub fn attribute(
+    root: &mut Value,
+    bin: &mut Vec<u8>,
+    semantic: &str,
+    kind: &str,
+    component: u32,
+    bytes: &[u8],
+) {
+    let view = append(root, bin, bytes);
+    let count = root["accessors"][0]["count"].clone();
+    let accessors = root["accessors"].as_array_mut().unwrap();
+    accessors.push(json!({"bufferView": view, "componentType": component, "count": count, "type": kind,
+                          "normalized": component != 5126}));
+    root["meshes"][0]["primitives"][0]["attributes"][semantic] = (accessors.len() - 1).into();
+}
+
+/// A triangle with texture coordinates (u along x, v down from y = 1) and a material that reads the texture of `texels`.
+pub fn textured(texels: &[[u8; 4]], material: Value) -> (Value, Vec<u8>) {
+    let (mut root, mut bin) = document(&TRIANGLE, 4);
+    attribute(&mut root, &mut bin, "TEXCOORD_0", "VEC2", 5126, &floats(&[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]));
+    let view = append(&mut root, &mut bin, &png(texels));
+    root["images"] = json!([{"name": "skin", "bufferView": view, "mimeType": "image/png"}]);
+    root["samplers"] = json!([{"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}]);
+    root["textures"] = json!([{"source": 0, "sampler": 0}]);
+    root["materials"] = json!([material]);
+    root["meshes"][0]["primitives"][0]["material"] = 0.into();
+    (root, bin)
+}
