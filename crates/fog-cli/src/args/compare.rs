@@ -4,8 +4,8 @@ use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
 const HELP: &str = "\
-A is measured against the reference B. Pictures are OpenEXR (R, G, B or Y: linear radiance), PNG
-or JPEG (sRGB). Data sets are folders that `fogbank sweep` made; their frames are matched by id,
+A is measured against the reference B. Pictures are OpenEXR (R, G, B or Y: linear radiance), PNG \
+or JPEG (sRGB). Data sets are folders that `fogbank sweep` made; their frames are matched by id, \
 or with --pair by pair id.
 
 Figures:

@@ -19,7 +19,7 @@ Figures:
   fig7         the model beside another fog                  phase        phase functions by angle
   phenomena    rainbow, fogbow, glory and corona by droplet size, with their colours
 
-Numbers of figures are those of Kolářová, Lachiver & Wilkie 2024. Figures of one fog take, of the heights given, the lowest
+Numbers of figures are those of Kolářová, Lachiver & Wilkie 2024. Figures of one fog take, of the heights given, the lowest \
 (fig3), the middle (fig4, fig6, fig7, wavelengths) or the highest (fig9, fig11): 100, 180 and 260 m are the paper's.";
 
 /// Arguments of `figures`.

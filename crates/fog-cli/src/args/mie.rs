@@ -10,7 +10,7 @@ Examples:
   fogbank mie --index 1.5,0.1 --size-parameter 10 --angles 0,90,180
   fogbank mie --diameter-um 10 --wavelength 905 --angles 0:180:1 --csv > phase.csv
 
-q_back is 4 |S1(180°)|² / x² (Bohren & Huffman 1983); |S1|², |S2|² are their intensities, perpendicular and parallel to the
+q_back is 4 |S1(180°)|² / x² (Bohren & Huffman 1983); |S1|², |S2|² are their intensities, perpendicular and parallel to the \
 scattering plane; the phase function, in 1/sr, is that of unpolarised light and integrates to 1 over the sphere.";
 
 /// Arguments of `mie`.

@@ -13,8 +13,8 @@ Examples:
   fogbank optics --distribution gamma:6,0.12 --mor 100 --wavelength 550
   fogbank optics --lwc 0.1 --number 1e8 --preset visible --csv
 
-A row per altitude and wavelength: efficiencies as means over the droplets' shadows (q_back in Bohren & Huffman's
-convention), coefficients of extinction and scattering in 1/m, the droplets in the spectrum's range of diameters, mor_m at
+A row per altitude and wavelength: efficiencies as means over the droplets' shadows (q_back in Bohren & Huffman's \
+convention), coefficients of extinction and scattering in 1/m, the droplets in the spectrum's range of diameters, mor_m at \
 550 nm and 5 % contrast at that altitude, backscatter in 1/(m sr) and the lidar ratio in sr, by the Mie series of water.";
 
 /// Arguments of `optics`.
