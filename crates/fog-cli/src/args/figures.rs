@@ -6,17 +6,22 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  fogbank figures --out figures                          every figure of the shipped model, with its data
-  fogbank figures --out figures --only fig9 --only fig11 visibility by day and of lights at night
+  fogbank figures --out figures                              every figure of the shipped model
+  fogbank figures --out figures --only fig9 --only fig11     visibility by day, of lights at night
   fogbank figures --out figures --height 120 --only profiles --format svg,csv
   fogbank figures --out figures --coefficients my_fog.yaml   a model of `fogbank fit`, or your own
 
 Figures:
-  fig3         a droplet spectrum and its two parts          fig9         visibility of objects by day (Koschmieder)
-  fig4         droplet spectra by altitude                   fig11        visibility of lights at night (Allard)
-  fig5         number density by altitude                    profiles     extinction, water, radius, g by altitude
-  fig6         droplet spectra at two altitudes              wavelengths  extinction, absorption, g, 300 to 2500 nm
-  fig7         the model beside another fog                  phase        phase functions by angle
+  fig3         a droplet spectrum and its two parts
+  fig4         droplet spectra by altitude
+  fig5         number density by altitude
+  fig6         droplet spectra at two altitudes
+  fig7         the model beside another fog
+  fig9         visibility of objects by day (Koschmieder)
+  fig11        visibility of lights at night (Allard)
+  profiles     extinction, water, effective radius and g by altitude
+  wavelengths  extinction, absorption and g, 300 to 2500 nm
+  phase        phase functions by angle
   phenomena    rainbow, fogbow, glory and corona by droplet size, with their colours
 
 Numbers of figures are those of Kolářová, Lachiver & Wilkie 2024. Figures of one fog take, of the heights given, the lowest \

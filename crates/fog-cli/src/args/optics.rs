@@ -8,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 const EXAMPLES: &str = "\
 Examples:
   fogbank optics --model advection --height 180 --altitude 2 60 150 --wavelength 550 905 1550
-  fogbank optics --model advection --coefficients model.yaml --height 180 --altitude 2 --wavelength 550
+  fogbank optics --model advection --coefficients my.yaml --height 180 --altitude 2 --wavelength 550
   fogbank optics --distribution shettle_fenn_radiation_heavy --preset lidar_905 --json
   fogbank optics --distribution gamma:6,0.12 --mor 100 --wavelength 550
   fogbank optics --lwc 0.1 --number 1e8 --preset visible --csv

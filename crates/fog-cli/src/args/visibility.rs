@@ -12,11 +12,11 @@ Examples:
   fogbank visibility --model advection --height 180 --altitude 2
   fogbank visibility --model advection --height 180 --altitude 60 --mor 300 --slant -3 --light night
   fogbank visibility --model advection --height 180 --altitude 60 --to 0,1145
-  fogbank visibility --distribution shettle_fenn_radiation_heavy --light day night --intensity 100 1000
+  fogbank visibility --distribution shettle_fenn_radiation_heavy --light day --intensity 100 1000
   fogbank visibility --lwc 0.1 --number 1e8              size of the droplets, then everything else
   fogbank visibility --mor 350 --json
 
-Objects: Koschmieder's law at 5 % contrast (the meteorological optical range of WMO-No. 8) and at 2 %. Lights: Allard's law \
+Objects: Koschmieder's law at 5 % contrast (the meteorological optical range of WMO-No. 8) and at 2 %. Lights: Allard's law \
 with ICAO's thresholds of illuminance (Annex 3, Doc 9328: night, twilight, day, bright_day) or WMO's (WMO-No. 8: wmo_...). \
 RVR: the greater of the markings' and the lights' range 2.5 m over the runway, which lies at altitude 0. All at 550 nm.";
 
