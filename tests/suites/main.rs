@@ -5,6 +5,7 @@ mod droplets;
 mod furnace;
 mod materials;
 mod materials_rendered;
+mod noise;
 mod phases;
 mod radiances;
 mod samplers;

@@ -8,5 +8,6 @@ mod lights;
 mod lobe;
 pub mod path;
 pub mod render;
+mod rounds;
 pub mod settings;
 pub mod truth;

@@ -12,6 +12,7 @@ mod figures;
 mod fit;
 mod mie;
 mod mistakes;
+mod noise;
 mod optics;
 mod phases;
 mod pipes;
