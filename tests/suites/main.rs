@@ -8,6 +8,7 @@ mod materials_rendered;
 mod noise;
 mod phases;
 mod radiances;
+mod replay;
 mod samplers;
 mod street;
 mod truth;

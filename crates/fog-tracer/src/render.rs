@@ -1,6 +1,6 @@
 //! The tile scheduler: pixels in parallel, each a function of (scene, camera, settings, seed) alone.
 
-use crate::path::PathTracer;
+use crate::path::{PathRadiance, PathTracer};
 use crate::rounds::{Round, next_round};
 use crate::settings::Settings;
 use crate::truth::truth;
@@ -8,7 +8,7 @@ use fog_core::colour::{Observer, Rgb};
 use fog_core::random::{PathRng, stratified};
 use fog_core::spectrum::{LANES, Wavelengths};
 use fog_film::{Channels, Frame, FrameError, PixelFilm};
-use fog_scene::camera::Camera;
+use fog_scene::camera::{Camera, Ray};
 use fog_scene::scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -69,6 +69,17 @@ pub struct Sample {
     pub airlight: bool,
 }
 
+/// The beginning of one path: all that is drawn before it flies.
+pub(crate) struct Start {
+    /// In pixels from the upper left corner of the frame.
+    pub(crate) image_point: [f64; 2],
+    pub(crate) ray: Ray,
+    pub(crate) wavelengths: Wavelengths,
+    /// Decides the first flight.
+    pub(crate) flight: f32,
+    pub(crate) rng: PathRng,
+}
+
 impl PathTracer<'_> {
     /// Traces the samples of a round; `None` if `progress` asked to stop.
     fn trace(
@@ -120,21 +131,38 @@ impl PathTracer<'_> {
     #[inline]
     #[must_use]
     pub fn sample(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Sample {
+        let mut start = self.start(camera, i, seed, sample);
+        let seen = self.radiance(start.ray, &start.wavelengths, start.flight, &mut start.rng);
+        self.finish(&start.wavelengths, seen)
+    }
+
+    #[inline]
+    pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Start {
         let (x, y) = (i % camera.width as usize, i / camera.width as usize);
         // The first four dimensions are stratified over the pixel's samples, the rest a plain random stream.
         let first = stratified(seed, i as u64, sample);
-        let mut rng = PathRng::new(seed, i as u64, sample);
         let [dx, dy] = first.pixel.map(f64::from);
-        let ray = camera.ray(x as f64 + dx, y as f64 + dy);
+        let image_point = [x as f64 + dx, y as f64 + dy];
         let wavelengths = match self.settings.wavelength_nm {
             Some(nm) => Wavelengths::monochromatic(nm),
             None => self.observer.sample_wavelengths(first.wavelength),
         };
-        let seen = self.radiance(ray, &wavelengths, first.flight, &mut rng);
+        Start {
+            image_point,
+            ray: camera.ray(image_point[0], image_point[1]),
+            wavelengths,
+            flight: first.flight,
+            rng: PathRng::new(seed, i as u64, sample),
+        }
+    }
+
+    /// The colour of what a path saw.
+    #[inline]
+    pub(crate) fn finish(&self, wavelengths: &Wavelengths, seen: PathRadiance) -> Sample {
         if self.settings.wavelength_nm.is_some() {
             return Sample { value: [seen.radiance[0], 0.0, 0.0], airlight: seen.airlight };
         }
-        let response = self.observer.lane_response(&wavelengths);
+        let response = self.observer.lane_response(wavelengths);
         let mut value = [0.0; 3];
         for lane in 0..LANES {
             for c in 0..3 {

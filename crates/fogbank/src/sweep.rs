@@ -27,7 +27,7 @@ pub enum Selection {
 
 impl Selection {
     /// Indices of the selected frames.
-    fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
+    pub(crate) fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
         let Self::One(wanted) = self else { return Ok((0..frames.len()).collect()) };
         let exact = frames.iter().position(|f| f.id == *wanted);
         let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());

@@ -17,5 +17,6 @@ mod optics;
 mod phases;
 mod pipes;
 mod records;
+mod replay;
 mod visibility;
 mod visibility_laws;
