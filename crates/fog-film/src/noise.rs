@@ -61,7 +61,7 @@ mod tests {
     fn errors_are_relative_to_the_pixel_or_the_floor() {
         let pixel = |values: [f32; 2]| {
             let mut film = PixelFilm::default();
-            values.map(|v| film.add_mono(v, 0.0));
+            values.iter().for_each(|&v| film.add_mono(v, 0.0));
             film
         };
         // Standard errors 0, 1 and 0.001; mean luminance 4.
