@@ -175,7 +175,7 @@ pub fn camera(
 /// If a pixel is not finite.
 #[must_use]
 pub fn render(scene: &Scene, camera: &Camera, samples: u64, wavelength_nm: Option<f32>, seed: u64) -> Frame {
-    let settings = Settings { samples, max_depth: None, wavelength_nm };
+    let settings = Settings { samples, max_depth: None, wavelength_nm, stop: None };
     fog_tracer::render::render(scene, camera, &Observer::new(), &settings, seed, &|_| true)
         .expect("finite")
         .expect("not cancelled")

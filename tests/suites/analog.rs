@@ -21,7 +21,7 @@ pub(crate) fn assert_agree(
     samples: u64,
 ) {
     let observer = Observer::new();
-    let settings = Settings { samples, max_depth, wavelength_nm: Some(600.0) };
+    let settings = Settings { samples, max_depth, wavelength_nm: Some(600.0), stop: None };
     let tracer = PathTracer::new(scene, &observer, settings);
     let wavelengths = Wavelengths::monochromatic(600.0);
     for (k, &(heading, pitch)) in rays.iter().enumerate() {

@@ -20,7 +20,7 @@ fn colour(
     paths: u64,
 ) -> [Moments; 3] {
     let observer = Observer::new();
-    let settings = Settings { samples: paths, max_depth, wavelength_nm: nm };
+    let settings = Settings { samples: paths, max_depth, wavelength_nm: nm, stop: None };
     let tracer = PathTracer::new(scene, &observer, settings);
     let ray = scenes::camera(1.7, ray.0, ray.1, 2, 2, 1.0).ray(1.0, 1.0);
     (0..64u64)

@@ -60,7 +60,7 @@ fn floors(all: Vec<(f32, Material)>) -> LoadedScene {
 /// Mean radiance at one wavelength along a ray downwards from `y`, at this cosine to the vertical, and its error.
 fn down(scene: &Scene, y: f32, cos: f32, max_depth: Option<u32>, samples: u64) -> (f64, f64) {
     let observer = Observer::new();
-    let settings = Settings { samples, max_depth, wavelength_nm: Some(550.0) };
+    let settings = Settings { samples, max_depth, wavelength_nm: Some(550.0), stop: None };
     let tracer = PathTracer::new(scene, &observer, settings);
     let direction = Vec3A::new((1.0 - cos * cos).sqrt(), -cos, 0.0);
     let ray = Ray { origin: Vec3A::new(0.3, y, 0.2), direction };

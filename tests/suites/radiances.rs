@@ -33,7 +33,7 @@ fn compare(file: &str, medium: Medium, sun_zenith_deg: f64, ground_albedo: f32, 
     let (base, top) = (medium.profile().base_y(), medium.profile().top_y());
     let scene = Scene::new(scenes::lambertian_ground(ground_albedo), Some(medium), None, Some(sun), false);
     let observer = Observer::new();
-    let settings = Settings { samples: paths, max_depth: None, wavelength_nm: Some(550.0) };
+    let settings = Settings { samples: paths, max_depth: None, wavelength_nm: Some(550.0), stop: None };
     let tracer = PathTracer::new(&scene, &observer, settings);
     let wavelengths = Wavelengths::monochromatic(550.0);
     let levels = csv::text_column(file, "level");

@@ -8,6 +8,7 @@ mod form;
 mod mie;
 mod number;
 mod optics;
+mod replay;
 mod visibility;
 
 pub(crate) use compare::CompareArgs;
@@ -17,6 +18,7 @@ pub(crate) use fog_source::FogSourceArgs;
 pub(crate) use form::FormArgs;
 pub(crate) use mie::MieArgs;
 pub(crate) use optics::OpticsArgs;
+pub(crate) use replay::ReplayArgs;
 pub(crate) use visibility::{EditionArg, VisibilityArgs};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
@@ -35,6 +37,7 @@ Examples:
   fogbank plan configs/quickstart.yaml                        list the frames without rendering
   fogbank sweep configs/quickstart.yaml --out out/quickstart  render all of them; run it again to finish what is missing
   fogbank render configs/quickstart.yaml --frame 3 --out out/one --set render.samples=256
+  fogbank replay configs/quickstart.yaml --frame 3 --pixel 40,30 --sample 0   one path of that frame in words
   fogbank compare a.hdr.exr b.hdr.exr --out map.png           how different they look, where, and in radiance
   fogbank schema > fogbank.schema.json                        for completion and checks in an editor
   fogbank visibility --model advection --height 180           how far one sees in that fog, by every law
@@ -66,6 +69,8 @@ pub(crate) enum Command {
     Optics(OpticsArgs),
     /// Scattering by one sphere: the Mie series.
     Mie(MieArgs),
+    /// Trace one path of a frame again and tell what happened to it.
+    Replay(ReplayArgs),
     /// Compare two pictures or data sets: ΔE2000 with its map, relative MSE, PSNR, z-scores.
     Compare(CompareArgs),
 }

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         args::Command::Visibility(args) => commands::visibility::run(&args),
         args::Command::Optics(args) => commands::optics::run(&args),
         args::Command::Mie(args) => commands::mie::run(&args),
+        args::Command::Replay(args) => commands::replay::run(&args),
         args::Command::Compare(args) => commands::compare::run(&args),
     };
     match result {

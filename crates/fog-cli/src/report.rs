@@ -18,10 +18,11 @@ const LINE_SECONDS: u64 = 10;
 
 /// Prints name, axes, size and estimates of a plan.
 pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<()> {
-    let (mut paths, mut bytes) = (0u64, 0u64);
+    let (mut paths, mut most, mut bytes) = (0u64, 0u64, 0u64);
     for frame in plan.frames() {
         let frame = frame.map_err(fogbank::Error::from)?;
         paths += fogbank::path_count(&frame);
+        most += fogbank::most_paths(&frame);
         let sensor = &frame.sensor;
         bytes +=
             fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, fogbank::output_set(&frame));
@@ -35,10 +36,16 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
     let seconds = paths as f64 / (NOMINAL_PATHS_PER_SECOND * threads as f64);
     writeln!(
         out,
-        "  about {} on {threads} thread{} for {:.1} million paths, about {} on disk",
+        "  {} {} on {threads} thread{} for {:.1} million paths{}, about {} on disk",
+        if most > paths { "at least" } else { "about" },
         HumanDuration(Duration::from_secs_f64(seconds.max(1.0))),
         if threads == 1 { "" } else { "s" },
         paths as f64 / 1e6,
+        if most > paths {
+            format!(" (at most {:.1} million, until the noise is low)", most as f64 / 1e6)
+        } else {
+            String::new()
+        },
         HumanBytes(bytes),
     )?;
     Ok(())
@@ -170,6 +177,12 @@ impl Progress for Reporter {
             }
             Event::FrameStarted { id } => self.bar.set_message(id.to_owned()),
             Event::Paths(n) => self.count(n),
+            Event::Expected(paths) => {
+                self.bar.set_length(paths);
+                if let Ok(mut line) = self.line.lock() {
+                    line.total = paths;
+                }
+            }
             Event::FrameDone { id, seconds, noise } => {
                 let n = self.next_frame();
                 self.say(&format!("{n:>7}  {id}  {seconds:.1} s, noise {:.1} %", 100.0 * noise));

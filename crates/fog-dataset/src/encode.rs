@@ -26,7 +26,7 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
 
 /// `<id>.timing.json`: seconds, and samples (not pixels) per second, null when no time was measured.
 pub(crate) fn timing(files: &FrameFiles<'_>) -> Vec<u8> {
-    let samples = files.frame.samples as f64 * files.frame.pixel_count() as f64;
+    let samples = files.frame.samples.iter().sum::<u64>() as f64;
     let rate = (files.seconds > 0.0).then(|| samples / files.seconds);
     pretty(&json!({ "seconds": files.seconds, "samples_per_second": rate }))
 }

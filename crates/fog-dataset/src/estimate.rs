@@ -5,7 +5,8 @@ use crate::OutputSet;
 /// Rough size of a frame's files in bytes, for a plan's estimate.
 ///
 /// Bytes per pixel are what RGB test frames of walls and ground at 16 samples took (tests in `tests/suite/sizes.rs`),
-/// rounded up: noisy radiance in f32 hardly compresses, truth channels do where surfaces are even. Mono frames take less.
+/// rounded up: noisy radiance in f32 hardly compresses, truth channels do where surfaces are even, equal counts of samples
+/// to nearly nothing. Mono frames take less.
 #[must_use]
 pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet) -> u64 {
     let per_pixel = [
@@ -14,6 +15,7 @@ pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet) -> u64 {
         (outputs.direct, 12.0),
         (outputs.airlight, 11.0),
         (outputs.standard_error, 4.0),
+        (outputs.samples, 0.1),
         (outputs.depth, 2.5),
         (outputs.distance, 3.4),
         (outputs.transmittance, 10.0),

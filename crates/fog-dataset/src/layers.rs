@@ -7,6 +7,9 @@ use crate::OutputSet;
 /// Channel of the standard error of each pixel's luminance (mono frames: of their radiance).
 pub(crate) const STANDARD_ERROR: &str = "standard_error.Y";
 
+/// Channel of the number of samples of each pixel.
+const SAMPLES: &str = "samples.Y";
+
 /// Channels of `<id>.hdr.exr` that the outputs ask for.
 pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {
     let mut out = Vec::new();
@@ -21,6 +24,10 @@ pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f3
     }
     if outputs.standard_error {
         out.push((STANDARD_ERROR.to_owned(), frame.standard_error.clone()));
+    }
+    if outputs.samples {
+        // Whole numbers up to 1 000 000: exact in f32.
+        out.push((SAMPLES.to_owned(), frame.samples.iter().map(|&n| n as f32).collect()));
     }
     out
 }

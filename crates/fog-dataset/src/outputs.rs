@@ -26,12 +26,24 @@ pub struct OutputSet {
     pub airlight: bool,
     /// Standard error of the luminance.
     pub standard_error: bool,
+    /// Number of samples.
+    pub samples: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 9] =
-        ["image", "hdr", "depth", "distance", "transmittance", "tau", "direct", "airlight", "standard_error"];
+    pub const NAMES: [&'static str; 10] = [
+        "image",
+        "hdr",
+        "depth",
+        "distance",
+        "transmittance",
+        "tau",
+        "direct",
+        "airlight",
+        "standard_error",
+        "samples",
+    ];
 
     /// Every output.
     #[must_use]
@@ -67,7 +79,7 @@ impl OutputSet {
     /// Whether an `.hdr.exr` belongs to the frame.
     #[must_use]
     pub fn wants_hdr_file(self) -> bool {
-        self.hdr || self.direct || self.airlight || self.standard_error
+        self.hdr || self.direct || self.airlight || self.standard_error || self.samples
     }
 
     /// Whether a `.gt.exr` belongs to the frame.
@@ -87,6 +99,7 @@ impl OutputSet {
             "direct" => &mut self.direct,
             "airlight" => &mut self.airlight,
             "standard_error" => &mut self.standard_error,
+            "samples" => &mut self.samples,
             _ => return None,
         })
     }

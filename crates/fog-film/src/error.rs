@@ -33,14 +33,12 @@ pub enum FrameError {
         /// Row, from the top.
         y: u32,
     },
-    /// Pixels with different numbers of samples.
-    #[error("pixel {index} has {found} samples, but pixel 0 has {expected}")]
-    UnevenSamples {
-        /// Row-major index of the pixel.
-        index: usize,
-        /// Samples of pixel 0.
-        expected: u64,
-        /// Samples of this pixel.
-        found: u64,
+    /// A pixel without a single sample.
+    #[error("pixel ({x}, {y}) was not sampled")]
+    Unsampled {
+        /// Column, from the left.
+        x: u32,
+        /// Row, from the top.
+        y: u32,
     },
 }

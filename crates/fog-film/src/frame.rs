@@ -38,8 +38,8 @@ pub struct Frame {
     pub height: u32,
     /// Meaning of the triples.
     pub channels: Channels,
-    /// Samples per pixel.
-    pub samples: u64,
+    /// Number of samples of each pixel, at least 1; all alike unless the frame was sampled until its noise was low.
+    pub samples: Vec<u64>,
     /// Mean radiance that came straight from a surface or the sky.
     pub direct: Vec<Rgb>,
     /// Mean radiance scattered in the fog at least once.
@@ -54,7 +54,7 @@ impl Frame {
     /// Means and errors of accumulated pixels.
     ///
     /// # Errors
-    /// [`FrameError::UnevenSamples`] when pixels differ in their number of samples; otherwise as [`Frame::check`].
+    /// As [`Frame::check`].
     pub fn from_pixels(
         width: u32,
         height: u32,
@@ -62,15 +62,11 @@ impl Frame {
         pixels: &[PixelFilm],
         truth: Truth,
     ) -> Result<Self, FrameError> {
-        let samples = pixels.first().map_or(0, PixelFilm::samples);
-        if let Some((index, odd)) = pixels.iter().enumerate().find(|(_, p)| p.samples() != samples) {
-            return Err(FrameError::UnevenSamples { index, expected: samples, found: odd.samples() });
-        }
         let frame = Self {
             width,
             height,
             channels,
-            samples,
+            samples: pixels.iter().map(PixelFilm::samples).collect(),
             direct: pixels.iter().map(PixelFilm::direct).collect(),
             airlight: pixels.iter().map(PixelFilm::airlight).collect(),
             standard_error: pixels.iter().map(|p| p.luminance().standard_error() as f32).collect(),
@@ -86,7 +82,8 @@ impl Frame {
         self.width as usize * self.height as usize
     }
 
-    /// Checks that there are pixels, that all channels have one value per pixel, and that every radiance is finite.
+    /// Checks that there are pixels, that all channels have one value per pixel, that every pixel was sampled, and that
+    /// every radiance is finite.
     ///
     /// # Errors
     /// The first thing found wrong.
@@ -96,6 +93,7 @@ impl Frame {
             return Err(FrameError::Empty { width, height });
         }
         for (channel, found) in [
+            ("samples", self.samples.len()),
             ("direct", self.direct.len()),
             ("airlight", self.airlight.len()),
             ("standard_error", self.standard_error.len()),
@@ -108,10 +106,17 @@ impl Frame {
                 return Err(FrameError::Shape { channel, width, height, expected, found });
             }
         }
+        let place = |i: usize| (i as u32 % width, (i / width as usize) as u32);
+        if let Some((x, y)) = self.samples.iter().position(|&n| n == 0).map(place) {
+            return Err(FrameError::Unsampled { x, y });
+        }
         let used = if matches!(self.channels, Channels::Rgb) { 3 } else { 1 };
         let finite = |i: &usize| self.image(*i)[..used].iter().all(|v| v.is_finite());
         match (0..expected).find(|i| !finite(i)) {
-            Some(i) => Err(FrameError::NotFinite { x: (i as u32) % width, y: (i / width as usize) as u32 }),
+            Some(i) => {
+                let (x, y) = place(i);
+                Err(FrameError::NotFinite { x, y })
+            }
             None => Ok(()),
         }
     }
@@ -137,6 +142,12 @@ impl Frame {
             Channels::Rgb => luminance(self.image(i).map(f64::from)),
             Channels::Mono { .. } => f64::from(self.image(i)[0]),
         }
+    }
+
+    /// Number of samples of a pixel in the mean over the frame.
+    #[must_use]
+    pub fn mean_samples(&self) -> f64 {
+        self.samples.iter().sum::<u64>() as f64 / self.pixel_count().max(1) as f64
     }
 
     /// Relative noise of the frame: the root of the mean squared standard error of a pixel's luminance, divided by the
@@ -192,7 +203,7 @@ mod tests {
     fn image_is_direct_plus_airlight() {
         let f = Frame::from_pixels(3, 1, Channels::Rgb, &pixels(&[0.0, 0.1, 7.3]), truth(3))
             .expect("valid frame");
-        assert_eq!(f.samples, 2);
+        assert_eq!(f.samples, [2; 3]);
         for i in 0..3 {
             for c in 0..3 {
                 assert_eq!(f.image(i)[c].to_bits(), (f.direct[i][c] + f.airlight[i][c]).to_bits());
@@ -229,15 +240,13 @@ mod tests {
     fn bad_frames_are_refused() {
         let rgb = Channels::Rgb;
         let shape = Frame::from_pixels(2, 1, rgb, &pixels(&[1.0]), truth(2));
-        assert!(matches!(shape, Err(FrameError::Shape { channel: "direct", .. })));
+        assert!(matches!(shape, Err(FrameError::Shape { channel: "samples", .. })));
         let nan = Frame::from_pixels(1, 2, rgb, &pixels(&[1.0, f32::NAN]), truth(2));
         assert_eq!(nan, Err(FrameError::NotFinite { x: 0, y: 1 }));
         assert!(matches!(Frame::from_pixels(0, 2, rgb, &[], truth(0)), Err(FrameError::Empty { .. })));
-        let mut uneven = pixels(&[1.0, 1.0]);
-        uneven[1].add([0.0; 3], [0.0; 3]);
-        assert!(matches!(
-            Frame::from_pixels(2, 1, rgb, &uneven, truth(2)),
-            Err(FrameError::UnevenSamples { index: 1, .. })
-        ));
+        let mut empty = pixels(&[1.0, 1.0]);
+        empty[1] = PixelFilm::default();
+        let unsampled = Frame::from_pixels(1, 2, rgb, &empty, truth(2));
+        assert_eq!(unsampled, Err(FrameError::Unsampled { x: 0, y: 1 }));
     }
 }

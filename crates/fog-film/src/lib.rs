@@ -9,6 +9,7 @@ mod compare;
 mod difference_map;
 mod error;
 mod frame;
+mod noise;
 mod picture;
 mod pixel;
 
@@ -17,5 +18,6 @@ pub use compare::{CompareError, Comparison, DeltaE, ZScores, compare, psnr_db};
 pub use difference_map::Srgb8Picture;
 pub use error::FrameError;
 pub use frame::{Channels, Frame, Truth};
+pub use noise::{PixelNoise, noise_floor, relative_error};
 pub use picture::{Picture, Scale, srgb8};
 pub use pixel::PixelFilm;

@@ -10,7 +10,7 @@ use crate::{
         CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, RenderFile, SensorFile,
         SunFile, SweepFile, VerticalFile,
     },
-    validate::{DEFAULT_ALBEDO, DEFAULT_SCALE},
+    validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
 
 /// Fills in the defaults that do not depend on other keys.
@@ -21,9 +21,12 @@ pub(crate) fn fill_sections(root: &mut Node) {
     put(root, "lighting", &LightingFile::default());
     put(root, "render", &RenderFile::default());
     put(root, "outputs", &Outputs::default());
-    for (section, fill) in
-        [("fog", fill_fog as fn(&mut Node)), ("lighting", fill_lighting), ("sweep", fill_sweep)]
-    {
+    for (section, fill) in [
+        ("fog", fill_fog as fn(&mut Node)),
+        ("lighting", fill_lighting),
+        ("render", fill_render),
+        ("sweep", fill_sweep),
+    ] {
         if let Some(node) = root.child_mut(section) {
             fill(node);
         }
@@ -53,6 +56,20 @@ fn fill_lighting(lighting: &mut Node) {
     if let Some(sun) = lighting.child_mut("sun") {
         merge(sun, &SunFile::default());
     }
+}
+
+/// The limit of samples that goes with a noise target; without one there is none.
+fn fill_render(render: &mut Node) {
+    if render.child("noise").is_none() || render.child("max_samples").is_some() {
+        return;
+    }
+    // Any other `samples` is a problem that is reported later.
+    let samples = match render.child("samples").map(|node| &node.value) {
+        Some(Value::Int(samples)) => u32::try_from(*samples).unwrap_or_default(),
+        Some(Value::Float(samples)) => *samples as u32,
+        _ => 0,
+    };
+    add(render, "max_samples", &samples.max(DEFAULT_MAX_SAMPLES).into());
 }
 
 fn fill_sweep(sweep: &mut Node) {

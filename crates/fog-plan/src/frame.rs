@@ -294,12 +294,25 @@ pub struct SunSpec {
 /// Sampling of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RenderSpec {
-    /// Paths per pixel, 1 to 1 000 000.
+    /// Paths per pixel, 1 to 1 000 000; with a noise target the first ones, at least 16.
     pub samples: u32,
+    /// Sampling goes on until the noise is low. Absent, and then not written: no more than `samples`.
+    #[serde(flatten)]
+    pub stop: Option<StopSpec>,
     /// Longest path in edges from camera to light (1: only light that comes straight from its source); absent: no limit.
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
     pub wavelength_nm: Option<f64>,
+}
+
+/// When enough of a pixel has been sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StopSpec {
+    /// Relative standard error of a pixel's luminance to be reached, above 0 up to 1; luminances below 1 % of the frame's
+    /// mean count as that.
+    pub noise: f64,
+    /// Paths per pixel after which sampling ends all the same, `samples` to 1 000 000.
+    pub max_samples: u32,
 }
 
 /// A quantity written for each frame.
@@ -324,4 +337,6 @@ pub enum Output {
     Airlight,
     /// Standard error of each pixel's luminance.
     StandardError,
+    /// Number of samples of each pixel.
+    Samples,
 }

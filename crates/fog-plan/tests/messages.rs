@@ -122,7 +122,7 @@ fn unknown_values() {
         errors("fog: none\noutputs: [image, image, tua]\n"),
         [
             "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
-          transmittance, tau, direct, airlight, standard_error; did you mean `tau`?"
+          transmittance, tau, direct, airlight, standard_error, samples; did you mean `tau`?"
         ]
     );
     assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);
@@ -488,4 +488,32 @@ fn all_problems_at_once_but_not_too_many() {
 fn unreadable_file() {
     let error = fog_plan::load(std::path::Path::new("no/such.yaml"), &[]).unwrap_err().to_string();
     assert!(error.starts_with("no/such.yaml: cannot read the configuration: "), "{error}");
+}
+
+#[test]
+fn sampling_by_noise() {
+    let head = HEAD.replace("render: {samples: 4}\n", "fog: none\n");
+    let of = |render: &str| errors_with(&format!("{head}{render}"), &[]);
+    assert_eq!(
+        of("render: {max_samples: 100}\n"),
+        ["configs/x.yaml:6:23: render.max_samples: belongs to render.noise, which is absent; without it \
+          render.samples is the number"]
+    );
+    assert_eq!(
+        of("render: {samples: 8, noise: 0.02}\n"),
+        [
+            "configs/x.yaml:6:19: render.samples: 8 are too few to tell the noise from; with render.noise at least 16"
+        ]
+    );
+    assert_eq!(
+        of("render: {noise: 0.02, max_samples: 32}\n"),
+        ["configs/x.yaml:6:36: render.max_samples: 32 is less than render.samples, which is 64"]
+    );
+    assert_eq!(
+        of("render: {noise: 2, max_samples: 0}\n"),
+        [
+            "configs/x.yaml:6:17: render.noise: 2 is out of range; valid: above 0 up to 1",
+            "configs/x.yaml:6:33: render.max_samples: 0 is out of range; valid: 1 to 1000000"
+        ]
+    );
 }

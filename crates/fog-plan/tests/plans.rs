@@ -316,3 +316,23 @@ fn phases_coefficients_and_sampling() {
     // Defaults are no part of what a frame's digest covers: frames keep the names that they had before these keys.
     assert!(json[6].get("coefficient").is_none() && json[6].get("sampling").is_none(), "{}", json[6]);
 }
+
+#[test]
+fn a_noise_target_has_a_limit_and_without_one_nothing_is_new() {
+    let head = "version: 1\nname: t\nscene: none\nfog: none\nlighting: day\ncamera: {altitude_m: 2}\n";
+    let plan = |render: &str| fog_plan::parse(&format!("{head}{render}"), "x.yaml", &[]).expect("valid");
+    let stop = |plan: &Plan| plan.frame(0).expect("frame").render.stop.map(|s| (s.noise, s.max_samples));
+    let plain = plan("render: {samples: 20}\n");
+    assert_eq!(stop(&plain), None);
+    assert_eq!(plain.resolved_json()["render"], serde_json::json!({ "samples": 20 }));
+    let keys = serde_json::to_value(plain.frame(0).expect("frame").render).expect("json");
+    assert_eq!(keys, serde_json::json!({ "samples": 20, "max_depth": null, "wavelength_nm": null }));
+    // The limit is written into the resolved configuration, whoever set it.
+    for (text, limit) in [("", 8192), (", samples: 10000", 10_000), (", max_samples: 300", 300)] {
+        let plan = plan(&format!("render: {{noise: 0.02{text}}}\n"));
+        assert_eq!(stop(&plan), Some((0.02, limit)), "{text}");
+        assert_eq!(plan.resolved_json()["render"]["max_samples"], limit, "{text}");
+    }
+    let swept = plan("sweep: {axes: {render.noise: [0.1, 0.05]}}\n");
+    assert_eq!(stop(&swept), Some((0.1, 8192)));
+}

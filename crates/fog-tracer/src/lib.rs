@@ -8,5 +8,8 @@ mod lights;
 mod lobe;
 pub mod path;
 pub mod render;
+pub mod replay;
+mod rounds;
 pub mod settings;
 pub mod truth;
+pub mod watch;

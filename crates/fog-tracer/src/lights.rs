@@ -31,8 +31,8 @@ pub(crate) struct LightSample {
     /// Relative radiance; irradiance for a parallel beam.
     pub(crate) radiance: Spectrum,
     /// Density in 1/sr including the choice of the light; the probability of the choice for a parallel beam.
-    pdf: f32,
-    beam: bool,
+    pub(crate) pdf: f32,
+    pub(crate) beam: bool,
 }
 
 impl LightSample {

@@ -7,9 +7,10 @@
 //!
 //! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
 
-use crate::lights::{LightMix, LightSample};
+use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
+use crate::watch::{FlightEnd, Offer, Step, Visibility, Watch, Weights};
 use fog_core::colour::Observer;
 use fog_core::profile::ProfileLanes;
 use fog_core::random::PathRng;
@@ -97,6 +98,19 @@ impl<'a> PathTracer<'a> {
         first_flight: f32,
         rng: &mut PathRng,
     ) -> PathRadiance {
+        self.watched(ray, wavelengths, first_flight, rng, &mut ())
+    }
+
+    /// [`PathTracer::radiance`], which tells `watch` of its steps.
+    #[inline]
+    pub(crate) fn watched(
+        &self,
+        ray: Ray,
+        wavelengths: &Wavelengths,
+        first_flight: f32,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> PathRadiance {
         let lanes = Lanes {
             basis: self.observer.lane_basis(wavelengths),
             medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
@@ -113,32 +127,43 @@ impl<'a> PathTracer<'a> {
         let mut u = f64::from(first_flight);
         loop {
             // Fly to the next collision in the fog, or to a surface before it.
-            let goes_on = match self.fly(&path, &lanes, u) {
+            let event = self.fly(&path, &lanes, u);
+            watch.see(|| self.flight(&path, &lanes, u, &event));
+            let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
-                    out.radiance += self.escape(&path);
+                    let sum = self.escape(&path);
+                    watch.see(|| Step::Escape { added: sum });
+                    out.radiance += sum;
                     false
                 }
                 Event::Surface(hit) => {
                     self.pass(&mut path, &lanes, f64::from(hit.t));
                     let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
-                    out.radiance += self.emitted(&path, &hit, &surface);
-                    self.may_scatter(&path) && {
-                        out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng);
-                        scatter_at_surface(&mut path, &surface, rng)
+                    let sum = self.emitted(&path, &hit, &surface);
+                    watch.see(|| Step::surface(&hit, &surface, sum));
+                    out.radiance += sum;
+                    self.may_scatter(&path, watch) && {
+                        out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
+                        let before = path.direction;
+                        let scattered = scatter_at_surface(&mut path, &surface, rng);
+                        watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
+                        scattered
                     }
                 }
                 Event::Collision { t, tau } => {
                     out.airlight |= path.depth == 0;
-                    self.may_scatter(&path) && {
+                    self.may_scatter(&path, watch) && {
                         let scatterer = self.collide(&mut path, &lanes, t, tau, rng);
-                        let sum = self.scatter_in_fog(&mut path, &scatterer, &lanes, rng);
-                        out.radiance += sum;
+                        watch.see(|| self.collision(&path, &lanes, &scatterer));
+                        let before = path.direction;
+                        out.radiance += self.scatter_in_fog(&mut path, &scatterer, &lanes, rng, watch);
+                        watch.see(|| path.turn(before));
                         true
                     }
                 }
             };
-            if !goes_on || !survives_roulette(&mut path, self.roulette_below, rng) {
+            if !goes_on || !survives_roulette(&mut path, self.roulette_below, rng, watch) {
                 return out;
             }
             u = rng.uniform_f64();
@@ -208,6 +233,7 @@ impl<'a> PathTracer<'a> {
         scatterer: &Scatterer,
         lanes: &Lanes,
         rng: &mut PathRng,
+        watch: &mut impl Watch,
     ) -> Spectrum {
         let medium = self.medium.as_ref().expect("collision needs fog");
         let sun = self.scene.sun.zip(self.reference_lanes.as_ref()).map(|(sun, reference)| {
@@ -216,7 +242,7 @@ impl<'a> PathTracer<'a> {
             (sun.direction, math::fast_exp(-tau[0]))
         });
         let lobe = FogLobe::new(&medium.phase, scatterer, path.direction, sun);
-        let sum = self.lights_in_fog(path, &lobe, lanes, rng);
+        let sum = self.lights_in_fog(path, &lobe, lanes, rng, watch);
 
         let (direction, value) = lobe.sample(rng);
         if !medium.grey || self.lights.any() {
@@ -256,12 +282,23 @@ impl<'a> PathTracer<'a> {
 
     /// False if another scattering would make the path longer than was asked for.
     #[inline]
-    fn may_scatter(&self, path: &Path) -> bool {
-        self.settings.max_depth.is_none_or(|max| path.depth + 1 < max)
+    fn may_scatter(&self, path: &Path, watch: &mut impl Watch) -> bool {
+        let may = self.settings.max_depth.is_none_or(|max| path.depth + 1 < max);
+        if !may {
+            watch.see(|| Step::TooLong);
+        }
+        may
     }
 
     /// Next-event estimation from a point in the fog.
-    fn lights_in_fog(&self, path: &Path, lobe: &FogLobe<'_>, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+    fn lights_in_fog(
+        &self,
+        path: &Path,
+        lobe: &FogLobe<'_>,
+        lanes: &Lanes,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> Spectrum {
         let Some(light) = self.lights.sample(self.scene, path.origin, &lanes.basis, rng) else {
             return Spectrum::ZERO;
         };
@@ -270,11 +307,19 @@ impl<'a> PathTracer<'a> {
         let density = light.density(value.density * transmittance);
         let sum =
             path.beta * value.phase * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
-        self.unless_occluded(path.origin, &light, sum, rng)
+        let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum };
+        self.unless_occluded(path.origin, &offer, rng, watch)
     }
 
     /// Next-event estimation from a surface.
-    fn lights_at_surface(&self, path: &Path, s: &Surface, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
+    fn lights_at_surface(
+        &self,
+        path: &Path,
+        s: &Surface,
+        lanes: &Lanes,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> Spectrum {
         let Some(bsdf) = &s.bsdf else { return Spectrum::ZERO };
         let Some(light) = self.lights.sample(self.scene, s.point.position, &lanes.basis, rng) else {
             return Spectrum::ZERO;
@@ -290,30 +335,37 @@ impl<'a> PathTracer<'a> {
         let transmittance = self.transmittance(origin, light.direction, light.distance, lanes);
         let density = light.density(transmittance * pdf);
         let sum = path.beta * value * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
-        self.unless_occluded(origin, &light, sum, rng)
+        let offer = Offer { light: &light, value, transmittance, worth: sum };
+        self.unless_occluded(origin, &offer, rng, watch)
     }
 
-    /// `sum` if nothing stands before the light; small sums are played for before the shadow ray is traced.
+    /// What the offer is worth if nothing stands before the light; small worths are played for before the shadow ray is
+    /// traced.
     #[inline]
     fn unless_occluded(
         &self,
         origin: Vec3A,
-        light: &LightSample,
-        sum: Spectrum,
+        offer: &Offer<'_>,
         rng: &mut PathRng,
+        watch: &mut impl Watch,
     ) -> Spectrum {
+        let (light, sum) = (offer.light, offer.worth);
         let largest = sum.max_lane();
         if largest <= 0.0 {
+            watch.see(|| offer.step(1.0, Visibility::Dark));
             return Spectrum::ZERO;
         }
         let keep = (largest * self.lights.shadow_scale()).min(1.0);
         if keep < 1.0 && rng.uniform() >= keep {
+            watch.see(|| offer.step(keep, Visibility::Dropped));
             return Spectrum::ZERO;
         }
         let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
         if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4), key) {
+            watch.see(|| offer.step(keep, Visibility::Blocked));
             return Spectrum::ZERO;
         }
+        watch.see(|| offer.step(keep, Visibility::Free));
         sum * (1.0 / keep)
     }
 
@@ -325,6 +377,46 @@ impl<'a> PathTracer<'a> {
         };
         let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
         medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile).exp_neg()
+    }
+
+    /// A flight for a watch.
+    fn flight(&self, path: &Path, lanes: &Lanes, u: f64, event: &Event) -> Step {
+        let (length_m, end) = match event {
+            Event::Surface(hit) => (f64::from(hit.t), FlightEnd::Surface),
+            Event::Collision { t, .. } => (*t, FlightEnd::Fog),
+            Event::Escape => (f64::INFINITY, FlightEnd::Nowhere),
+        };
+        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
+        let fog = self.medium.as_ref().zip(lanes.medium.as_ref());
+        let tau = fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
+        Step::Flight {
+            origin: path.origin,
+            direction: path.direction,
+            length_m,
+            drawn_tau: -math::f64::ln(1.0 - u),
+            tau: tau.unwrap_or(Spectrum::ZERO),
+            end,
+        }
+    }
+
+    /// A collision for a watch.
+    fn collision(&self, path: &Path, lanes: &Lanes, scatterer: &Scatterer) -> Step {
+        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let here = [medium.profile.sigma_t(y, &lanes.profile), medium.profile.albedo(y, &lanes.profile)];
+        Step::collision(path.origin, here, scatterer, path.weights())
+    }
+}
+
+impl Path {
+    fn weights(&self) -> Weights {
+        Weights { beta: self.beta, r_u: self.r_u, r_l: self.r_l }
+    }
+
+    /// A turn for a watch.
+    fn turn(&self, before: Vec3A) -> Step {
+        let (direction, depth) = (self.direction, self.depth);
+        Step::Turn { direction, cosine: before.dot(direction), depth, weights: self.weights() }
     }
 }
 
@@ -347,12 +439,14 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
 
 /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
 #[inline]
-fn survives_roulette(path: &mut Path, below: f32, rng: &mut PathRng) -> bool {
+fn survives_roulette(path: &mut Path, below: f32, rng: &mut PathRng, watch: &mut impl Watch) -> bool {
     let mean = path.r_u.mean();
     if path.depth > ROULETTE_DEPTH {
         let survival = (path.beta.max_lane() / (mean * below)).max(ROULETTE_MIN);
         if survival < 1.0 {
-            if rng.uniform() >= survival {
+            let survived = rng.uniform() < survival;
+            watch.see(|| Step::Roulette { survival, survived });
+            if !survived {
                 return false;
             }
             path.beta *= 1.0 / survival;

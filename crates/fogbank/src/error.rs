@@ -79,6 +79,9 @@ pub enum Error {
         /// Number of frames in the plan.
         count: usize,
     },
+    /// A path that the frame does not have.
+    #[error("{0}")]
+    UnknownPath(String),
     /// The caller asked to stop.
     #[error("stopped on request")]
     Cancelled,

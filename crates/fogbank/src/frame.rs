@@ -7,10 +7,11 @@ use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
 use fog_film::Frame;
-use fog_plan::{CameraSpec, FrameSpec, SensorSpec};
+use fog_plan::{CameraSpec, FrameSpec, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose};
 use fog_scene::scene::Scene;
-use fog_tracer::settings::Settings;
+use fog_tracer::render::Work;
+use fog_tracer::settings::{Settings, Stop};
 
 /// A rendered frame and its record.
 #[derive(Clone, Debug)]
@@ -31,6 +32,17 @@ pub fn camera(camera: &CameraSpec, sensor: &SensorSpec) -> Camera {
     Camera::new(pose, sensor.width_px, sensor.height_px, sensor.horizontal_fov_deg)
 }
 
+/// What the tracer is asked for.
+pub(crate) fn settings(spec: &FrameSpec) -> Settings {
+    let stop = |s: StopSpec| Stop { noise: s.noise, max_samples: u64::from(s.max_samples) };
+    Settings {
+        samples: u64::from(spec.render.samples),
+        stop: spec.render.stop.map(stop),
+        max_depth: spec.render.max_depth,
+        wavelength_nm: spec.render.wavelength_nm.map(|nm| nm as f32),
+    }
+}
+
 /// Scene of a frame, with its fog.
 ///
 /// # Errors
@@ -43,7 +55,7 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
     Ok((Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters), fog))
 }
 
-/// Renders a frame on the current rayon pool. `progress` hears of traced paths and may stop the work.
+/// Renders a frame on the current rayon pool. `progress` hears of the paths and may stop the work.
 ///
 /// # Errors
 /// If the scene or the fog cannot be had, a pixel is not finite, or `progress` asked to stop.
@@ -51,19 +63,13 @@ pub fn render_frame(
     spec: &FrameSpec,
     resources: &Resources,
     config_digest: &str,
-    progress: &(dyn Fn(u64) -> bool + Sync),
+    progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Result<Rendered, Error> {
     let (scene, fog) = scene(spec, resources)?;
     let camera = camera(&spec.camera, &spec.sensor);
-    let samples = u64::from(spec.render.samples);
-    let settings = Settings {
-        samples,
-        max_depth: spec.render.max_depth,
-        wavelength_nm: spec.render.wavelength_nm.map(|nm| nm as f32),
-    };
-    let paths = |pixels: u64| progress(pixels * samples);
+    let settings = settings(spec);
     let frame =
-        fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, &paths)?
+        fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
             .ok_or(Error::Cancelled)?;
     let record = record(spec, fog.as_ref(), &camera, &frame, config_digest);
     Ok(Rendered { frame, record, camera })

@@ -22,11 +22,13 @@ mod compare;
 mod droplets;
 mod error;
 mod fog;
+mod forecast;
 mod frame;
 mod lighting;
 mod phase;
 mod progress;
 mod record;
+mod replay;
 mod resources;
 mod sources;
 mod sweep;
@@ -45,11 +47,13 @@ pub use fog_film as film;
 pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_scene::generate;
+pub use fog_tracer::render::Work;
 pub use frame::{Rendered, camera, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
+pub use replay::{Replayed, replay};
 pub use resources::Resources;
 pub use sources::load_model;
-pub use sweep::{Selection, output_set, path_count, sweep};
+pub use sweep::{Selection, most_paths, output_set, path_count, sweep};
 pub use table_cache::{Stored, TableCache, TableOrigin};
 
 /// Digest of the sources, dependencies and tables that this program was built from: frames of equal specification and

@@ -35,7 +35,7 @@ pub enum Event<'a> {
     Ready {
         /// Frames found done.
         done: usize,
-        /// Paths to trace in all frames to come.
+        /// Paths to trace in all frames to come; of frames that are sampled by noise, the first ones.
         paths: u64,
         /// Frames to be rendered.
         todo: usize,
@@ -47,6 +47,9 @@ pub enum Event<'a> {
     },
     /// So many more paths were traced.
     Paths(u64),
+    /// So many paths are now expected in all frames together, those already traced among them; heard where sampling goes
+    /// by noise, so that their number shows only on the way.
+    Expected(u64),
     /// A frame is stored.
     FrameDone {
         /// Its id.

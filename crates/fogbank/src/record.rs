@@ -49,13 +49,37 @@ pub(crate) fn record(
         "tau_wavelength_nm": TAU_NM,
         "image": "direct + airlight",
     });
-    value["noise"] = json!({
-        "samples_per_pixel": frame.samples,
+    value["noise"] = noise_json(spec, frame);
+    value["config_digest"] = json!(config_digest);
+    value["code"] = json!({ "version": env!("CARGO_PKG_VERSION"), "digest": CODE_DIGEST });
+    value
+}
+
+/// How noisy the frame is and what was done about it.
+fn noise_json(spec: &FrameSpec, frame: &Frame) -> Value {
+    let samples = match spec.render.stop {
+        None => json!(spec.render.samples),
+        Some(_) => json!(frame.mean_samples()),
+    };
+    let mut value = json!({
+        "samples_per_pixel": samples,
         "relative_standard_error": frame.noise_estimate(),
         "definition": "root mean square standard error of a pixel's luminance over the mean luminance",
     });
-    value["config_digest"] = json!(config_digest);
-    value["code"] = json!({ "version": env!("CARGO_PKG_VERSION"), "digest": CODE_DIGEST });
+    let Some(stop) = spec.render.stop else { return value };
+    let count = |f: fn(u64, u64) -> u64| frame.samples.iter().copied().reduce(f);
+    let pixels = frame.pixel_noise(stop.noise);
+    value["samples_least"] = json!(count(u64::min));
+    value["samples_most"] = json!(count(u64::max));
+    value["pixels"] = json!({
+        "target": stop.noise,
+        "share_within_target": pixels.within,
+        "root_mean_square": pixels.rms,
+        "largest": pixels.largest,
+        "floor_luminance": pixels.floor,
+        "definition": "standard error of a pixel's luminance over that luminance, or over the floor (1 % of the mean \
+                       luminance) where that is more",
+    });
     value
 }
 

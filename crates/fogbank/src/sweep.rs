@@ -1,12 +1,14 @@
 //! All frames of a plan, or some of them, into a data set.
 
 use crate::error::Error;
+use crate::forecast::Forecast;
 use crate::frame::{Rendered, render_frame};
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::{CODE_DIGEST, changed_files, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
 use fog_plan::{FrameSpec, Plan};
+use fog_tracer::render::Work;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -25,7 +27,7 @@ pub enum Selection {
 
 impl Selection {
     /// Indices of the selected frames.
-    fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
+    pub(crate) fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
         let Self::One(wanted) = self else { return Ok((0..frames.len()).collect()) };
         let exact = frames.iter().position(|f| f.id == *wanted);
         let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());
@@ -91,13 +93,22 @@ pub fn sweep(
 
     // 3. Each missing frame: render, store, or record why not.
     let config_digest = plan.config_digest();
+    let mut forecast = Forecast::new(&todo);
     for spec in todo {
         if !progress.event(Event::FrameStarted { id: &spec.id }) {
             return Err(Error::Cancelled);
         }
         let started = Instant::now();
-        let on_paths = |n: u64| progress.event(Event::Paths(n));
-        let rendered = guarded(|| render_frame(spec, resources, &config_digest, &on_paths));
+        forecast.begin(spec);
+        let on_work = |work: Work| match work {
+            Work::Traced(n) => {
+                forecast.count(n);
+                progress.event(Event::Paths(n))
+            }
+            Work::Left(n) => progress.event(Event::Expected(forecast.total(n))),
+        };
+        let rendered = guarded(|| render_frame(spec, resources, &config_digest, &on_work));
+        forecast.end();
         let stored =
             rendered.and_then(|r| store(&data_set, spec, &r, started).map(|()| r.frame.noise_estimate()));
         match stored {
@@ -146,10 +157,17 @@ fn warn_of_extrapolation<'f>(
     }
 }
 
-/// Number of paths that a frame takes.
+/// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
     u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(spec.render.samples)
+}
+
+/// Number of paths that a frame takes at most: [`path_count`] unless sampling goes by noise.
+#[must_use]
+pub fn most_paths(spec: &FrameSpec) -> u64 {
+    let most = spec.render.stop.map_or(spec.render.samples, |stop| stop.max_samples);
+    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(most)
 }
 
 /// The outputs of a frame as the data set knows them.

@@ -8,6 +8,7 @@ pub(crate) mod mie;
 pub(crate) mod optics;
 pub(crate) mod plan;
 pub(crate) mod render;
+pub(crate) mod replay;
 pub(crate) mod scene;
 pub(crate) mod schema;
 mod spectrum;

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
 /// Renders the selected frames; exit code 1 if one of the selected frames failed.
 pub(crate) fn render(plan: &Plan, selection: &Selection, work: &WorkArgs) -> Result<ExitCode> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(work)).build()?;
-    let mut resources = Resources::new(TableCache::new(cache_dir(work)?));
+    let mut resources = Resources::new(TableCache::new(cache_dir(work.cache_dir.as_deref())?));
     let reporter = Reporter::new(work.quiet);
     let result = pool.install(|| fogbank::sweep(plan, selection, &work.out, &mut resources, &reporter));
     reporter.close();
@@ -35,9 +35,9 @@ pub(crate) fn threads(work: &WorkArgs) -> usize {
 }
 
 /// The folder asked for; in a checkout of Fogbank its `tables/cache`; else the user's cache folder.
-fn cache_dir(work: &WorkArgs) -> Result<PathBuf> {
-    if let Some(dir) = &work.cache_dir {
-        return Ok(dir.clone());
+pub(crate) fn cache_dir(asked: Option<&Path>) -> Result<PathBuf> {
+    if let Some(dir) = asked {
+        return Ok(dir.to_owned());
     }
     if Path::new("tables/advection/arcata.yaml").is_file() {
         return Ok(PathBuf::from("tables/cache"));

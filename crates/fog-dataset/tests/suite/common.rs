@@ -92,7 +92,7 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
     set.write_frame(&FrameFiles {
         id,
         frame,
-        record: &json!({ "id": id, "samples": frame.samples }),
+        record: &json!({ "id": id, "samples": frame.samples[0] }),
         exposure: 1.25,
         seconds,
         attributes: &attributes,

@@ -27,7 +27,7 @@ fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 10 + 6);
+    assert_eq!(s.channels.len(), 11 + 6);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
@@ -37,6 +37,7 @@ fn every_channel_comes_back_bit_by_bit() {
         same(&s, name, |i| d.values[i] + a.values[i]);
     }
     same(&s, "standard_error.Y", |i| f.standard_error[i]);
+    same(&s, "samples.Y", |i| f.samples[i] as f32);
     same(&s, "depth.Z", |i| f.truth.depth_m[i]);
     same(&s, "distance.Z", |i| f.truth.distance_m[i]);
     same(&s, "tau.Y", |i| f.truth.tau[i]);
@@ -65,6 +66,7 @@ fn one_wavelength_has_one_channel() {
             "depth.Z",
             "direct.Y",
             "distance.Z",
+            "samples.Y",
             "standard_error.Y",
             "tau.Y",
             "transmittance.Y"

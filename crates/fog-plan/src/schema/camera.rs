@@ -63,9 +63,19 @@ impl Default for SensorFile {
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Render")]
 pub(crate) struct RenderFile {
-    /// Paths per pixel.
+    /// Paths per pixel; with `noise` the first ones of each pixel, at least 16.
     #[schemars(range(min = ranges::SAMPLES.min, max = ranges::SAMPLES.max))]
     pub(crate) samples: i64,
+    /// Samples each pixel until the standard error of its luminance, and that of its neighbours, is this share of the
+    /// luminance (0.02: 2 %); luminances below 1 % of the frame's mean count as that. Absent: `samples` paths and no more.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::NOISE.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) noise: Option<f64>,
+    /// Paths per pixel after which sampling for `noise` ends all the same. With `noise` and without this: 8192, or `samples`
+    /// if that is more.
+    #[schemars(range(min = ranges::SAMPLES.min, max = ranges::SAMPLES.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_samples: Option<i64>,
     /// Longest path in edges from camera to light; 1: only light that comes straight from its source. Absent: no limit.
     #[schemars(range(min = ranges::MAX_DEPTH.min, max = ranges::MAX_DEPTH.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,7 +88,7 @@ pub(crate) struct RenderFile {
 
 impl Default for RenderFile {
     fn default() -> Self {
-        Self { samples: 64, max_depth: None, wavelength_nm: None }
+        Self { samples: 64, noise: None, max_samples: None, max_depth: None, wavelength_nm: None }
     }
 }
 
@@ -105,6 +115,8 @@ pub(crate) enum OutputFile {
     Airlight,
     /// Standard error of each pixel's luminance; only where it is named.
     StandardError,
+    /// Number of samples of each pixel; only where it is named.
+    Samples,
 }
 
 impl OutputFile {

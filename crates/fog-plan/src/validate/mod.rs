@@ -8,6 +8,7 @@ mod view;
 use serde::Serialize;
 
 pub(crate) use fog::{DEFAULT_ALBEDO, DEFAULT_SCALE};
+pub(crate) use view::DEFAULT_MAX_SAMPLES;
 
 use crate::{
     error::{Problem, Problems},

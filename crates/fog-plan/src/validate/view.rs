@@ -2,10 +2,15 @@
 
 use super::Check;
 use crate::{
-    frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec},
+    frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec, StopSpec},
     ranges,
     schema::{CameraFile, OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile},
 };
+
+/// `render.max_samples` where it is not given.
+pub(crate) const DEFAULT_MAX_SAMPLES: u32 = 8192;
+/// Fewest samples of a pixel that its noise is judged by.
+const MIN_NOISE_SAMPLES: u32 = 16;
 
 impl Check<'_> {
     pub(super) fn scene(&mut self, scene: Option<&OrNone<SceneFile>>) -> Option<Option<SceneSpec>> {
@@ -60,7 +65,40 @@ impl Check<'_> {
             Some(depth) => self.whole("render.max_depth", depth, ranges::MAX_DEPTH).map(Some),
         };
         let wavelength = self.optional("render.wavelength_nm", render.wavelength_nm, ranges::WAVELENGTH_NM);
-        Some(RenderSpec { samples: samples?, max_depth: depth?, wavelength_nm: wavelength? })
+        let stop = self.stop(render, samples);
+        Some(RenderSpec { samples: samples?, stop: stop?, max_depth: depth?, wavelength_nm: wavelength? })
+    }
+
+    /// Until when pixels are sampled; the outer option is the check's success.
+    fn stop(&mut self, render: &RenderFile, samples: Option<u32>) -> Option<Option<StopSpec>> {
+        let Some(noise) = render.noise else {
+            if render.max_samples.is_some() && !self.reported("render.noise") {
+                let message =
+                    "belongs to render.noise, which is absent; without it render.samples is the number";
+                self.problem("render.max_samples", message);
+                return None;
+            }
+            return Some(None);
+        };
+        let noise = self.range("render.noise", noise, ranges::NOISE);
+        let max = match render.max_samples {
+            Some(max) => self.whole("render.max_samples", max, ranges::SAMPLES),
+            None => Some(samples?.max(DEFAULT_MAX_SAMPLES)),
+        };
+        let (samples, max_samples) = (samples?, max?);
+        if samples < MIN_NOISE_SAMPLES {
+            let message = format!(
+                "{samples} are too few to tell the noise from; with render.noise at least {MIN_NOISE_SAMPLES}"
+            );
+            self.problem("render.samples", message);
+            return None;
+        }
+        if max_samples < samples {
+            let message = format!("{max_samples} is less than render.samples, which is {samples}");
+            self.problem("render.max_samples", message);
+            return None;
+        }
+        Some(Some(StopSpec { noise: noise?, max_samples }))
     }
 
     pub(super) fn outputs(&mut self, outputs: &Outputs) -> Option<Vec<Output>> {
@@ -92,5 +130,6 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::Direct => Output::Direct,
         OutputFile::Airlight => Output::Airlight,
         OutputFile::StandardError => Output::StandardError,
+        OutputFile::Samples => Output::Samples,
     }
 }

@@ -1,0 +1,47 @@
+//! One path of a frame once more, with everything that happened to it.
+
+use crate::path::PathTracer;
+use crate::render::Sample;
+use crate::watch::Step;
+use fog_core::spectrum::{LANES, Spectrum, Wavelengths};
+use fog_scene::camera::{Camera, Ray};
+
+/// A path of the real integrator with the random numbers of the rendering.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    /// Where the path leaves through the image, in pixels from the frame's upper left corner.
+    pub image_point: [f64; 2],
+    /// The camera ray.
+    pub ray: Ray,
+    /// Wavelengths; the first is the hero, which decides where the path goes.
+    pub wavelengths: Wavelengths,
+    /// What happened, in order.
+    pub steps: Vec<Step>,
+    /// Sum of all that the steps added.
+    pub radiance: Spectrum,
+    /// Linear sRGB that radiance 1 at each wavelength gives; none in a frame of one wavelength.
+    pub response: Option<[[f32; 3]; LANES]>,
+    /// What the film gets.
+    pub sample: Sample,
+}
+
+impl PathTracer<'_> {
+    /// Traces sample `sample` of pixel `i` (row-major) of the frame with this seed, as the rendering does, and keeps the
+    /// steps.
+    #[must_use]
+    pub fn replay(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Replay {
+        let mut start = self.start(camera, i, seed, sample);
+        let mut steps = Vec::new();
+        let seen = self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut steps);
+        let colour = self.settings.wavelength_nm.is_none();
+        Replay {
+            image_point: start.image_point,
+            ray: start.ray,
+            wavelengths: start.wavelengths,
+            steps,
+            radiance: seen.radiance,
+            response: colour.then(|| self.observer.lane_response(&start.wavelengths)),
+            sample: self.finish(&start.wavelengths, seen),
+        }
+    }
+}

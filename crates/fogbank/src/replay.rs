@@ -1,0 +1,90 @@
+//! One path of a frame again, for people.
+
+mod json;
+mod words;
+
+use crate::error::Error;
+use crate::frame::{camera, scene, settings};
+use crate::progress::Progress;
+use crate::resources::Resources;
+use crate::sweep::Selection;
+use fog_core::spectrum::Spectrum;
+use fog_plan::{FrameSpec, Plan};
+use fog_scene::scene::Scene;
+use fog_tracer::path::PathTracer;
+use fog_tracer::replay::Replay;
+
+/// A path with the frame that it belongs to; displays as a story, a step per paragraph.
+#[derive(Clone, Debug)]
+pub struct Replayed {
+    spec: FrameSpec,
+    scene: Scene,
+    pixel: [u32; 2],
+    number: u64,
+    path: Replay,
+}
+
+/// Traces sample `number` of a pixel (column, row) of the selected frame again, as rendering does.
+///
+/// # Errors
+/// If the plan has several frames and none is selected, the frame has no such pixel or sample, or the scene or the fog
+/// cannot be had.
+pub fn replay(
+    plan: &Plan,
+    selection: &Selection,
+    pixel: [u32; 2],
+    number: u64,
+    resources: &mut Resources,
+    progress: &dyn Progress,
+) -> Result<Replayed, Error> {
+    let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
+    let [index] = selection.indices(&frames)?[..] else {
+        return Err(Error::NotOneFrame { name: plan.name().to_owned(), count: frames.len() });
+    };
+    let spec = frames[index].clone();
+    let ([x, y], [width, height]) = (pixel, [spec.sensor.width_px, spec.sensor.height_px]);
+    if x >= width || y >= height {
+        let range = format!("columns go from 0 to {}, rows from 0 to {}", width - 1, height - 1);
+        return Err(Error::UnknownPath(format!("the frame has no pixel {x},{y}: {range}")));
+    }
+    let count = spec.render.stop.map_or(spec.render.samples, |stop| stop.max_samples);
+    if number >= u64::from(count) {
+        let range = format!("its pixels have {count} at most, counted from 0");
+        return Err(Error::UnknownPath(format!("the frame has no sample {number}: {range}")));
+    }
+    resources.prepare(&spec, progress);
+    let (scene, _) = scene(&spec, resources)?;
+    let camera = camera(&spec.camera, &spec.sensor);
+    let tracer = PathTracer::new(&scene, &resources.observer, settings(&spec));
+    let i = y as usize * width as usize + x as usize;
+    let path = tracer.replay(&camera, i, spec.seed, number);
+    Ok(Replayed { spec, scene, pixel, number, path })
+}
+
+impl Replayed {
+    /// Linear sRGB of a radiance at the path's wavelengths; of a frame of one wavelength the radiance there.
+    fn value(&self, radiance: &Spectrum) -> Vec<f32> {
+        let Some(response) = &self.path.response else { return vec![radiance[0]] };
+        let sum = |c: usize| response.iter().zip(radiance.0).map(|(rgb, v)| rgb[c] * v).sum();
+        (0..3).map(sum).collect()
+    }
+
+    /// What the film gets: three values, or one.
+    fn sample(&self) -> &[f32] {
+        let used = if self.path.response.is_some() { 3 } else { 1 };
+        &self.path.sample.value[..used]
+    }
+
+    fn material(&self, index: u32) -> &str {
+        self.scene.loaded().materials.get(index as usize).map_or("", |m| &m.name)
+    }
+
+    fn object(&self, index: u32) -> &str {
+        self.scene.loaded().objects.get(index as usize).map_or("", |o| &o.name)
+    }
+
+    /// Height above the fog's datum in metres.
+    fn altitude_m(&self, y: f64) -> f64 {
+        y - self.spec.fog.datum_m
+    }
+}
