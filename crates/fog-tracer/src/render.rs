@@ -64,17 +64,20 @@ impl PathTracer<'_> {
             let seen = self.radiance(ray, &wavelengths, first.flight, &mut rng);
             if self.settings.wavelength_nm.is_some() {
                 let (value, airlight) = (seen.radiance[0], seen.airlight);
-                film.add_mono(if airlight { 0.0 } else { value }, if airlight { value } else { 0.0 });
+                let glow = seen.glow[0];
+                film.add_mono(if airlight { 0.0 } else { value }, if airlight { value + glow } else { glow });
                 continue;
             }
             let response = self.observer.lane_response(&wavelengths);
-            let mut rgb = [0.0; 3];
+            let (mut rgb, mut glow) = ([0.0; 3], [0.0; 3]);
             for lane in 0..LANES {
                 for c in 0..3 {
                     rgb[c] += seen.radiance[lane] * response[lane][c];
+                    glow[c] += seen.glow[lane] * response[lane][c];
                 }
             }
-            let (direct, airlight) = if seen.airlight { ([0.0; 3], rgb) } else { (rgb, [0.0; 3]) };
+            let (direct, airlight) =
+                if seen.airlight { ([0.0; 3], [0, 1, 2].map(|c| rgb[c] + glow[c])) } else { (rgb, glow) };
             film.add(direct, airlight);
         }
         film
