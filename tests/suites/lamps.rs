@@ -8,16 +8,17 @@ use fog_core::profile::ExtinctionProfile;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Wavelengths;
 use fog_core::{Vec3A, math};
-use fog_scene::LoadedScene;
 use fog_scene::camera::Ray;
 use fog_scene::lamp::{Beam, Cone, Lamp, PunctualLights};
 use fog_scene::lamp_tree::{LampTree, Receiver};
 use fog_scene::medium::Medium;
 use fog_scene::phase::Phase;
 use fog_scene::scene::Scene;
+use fog_scene::{Geometry, LoadedScene, Triangle};
 use fog_tests::{chi_square, scenes};
 use fog_tracer::path::PathTracer;
 use fog_tracer::settings::Settings;
+use glam::Vec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -57,7 +58,12 @@ fn seen(scene: &Scene, ray: Ray, max_depth: Option<u32>, nm: f32, samples: u64) 
 #[test]
 fn one_candela_over_a_ground() {
     // L = ρ/π · E, with E = I cos θ / d² of a lamp, and E cos θ of a beam; all over the luminance that 1 stands for.
-    let ground = scenes::lambertian_ground(0.4);
+    // 40 m wide: on the 400 km of the shared ground, places are known to a centimetre.
+    let [a, b, c, d] =
+        [(-20.0, -20.0), (-20.0, 20.0), (20.0, 20.0), (20.0, -20.0)].map(|(x, z)| Vec3::new(x, 0.0, z));
+    let triangles = vec![Triangle::flat([a, b, c]), Triangle::flat([a, c, d])];
+    let geometry = Geometry::new(triangles, Vec::new());
+    let ground = LoadedScene { geometry, ..(*scenes::lambertian_ground(0.4)).clone() };
     let down = Ray { origin: Vec3A::new(3.0, 2.0, 0.0), direction: Vec3A::NEG_Y };
     let lamp = lit(&ground, vec![point(0.0, 4.0, 0.0, [100.0; 3])], vec![]);
     let off_axis = lit(&ground, vec![spot(0.0, 4.0, 0.0, 100.0, Vec3A::NEG_Y)], vec![]);
