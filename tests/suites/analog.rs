@@ -33,7 +33,8 @@ pub(crate) fn assert_agree(
                 for s in 0..samples / 64 {
                     let mut rng = PathRng::new(k as u64, chunk, s);
                     let first = rng.uniform();
-                    fast.add(f64::from(tracer.radiance(ray, &wavelengths, first, &mut rng).radiance[0]));
+                    let path = tracer.radiance(ray, &wavelengths, first, &mut rng);
+                    fast.add(f64::from(path.radiance[0] + path.glow[0]));
                     let mut rng = PathRng::new(k as u64 + 1000, chunk, s);
                     analog.add(f64::from(tracer.analog_radiance(ray, 600.0, &mut rng)));
                 }

@@ -3,6 +3,7 @@
 mod analog;
 mod droplets;
 mod furnace;
+mod lamps;
 mod materials;
 mod materials_rendered;
 mod noise;

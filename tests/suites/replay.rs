@@ -29,9 +29,9 @@ fn replays_are_what_the_film_got() {
         let frame = scenes::render(&scene, &camera, 1, wavelength_nm, 9);
         for i in 0..frame.pixel_count() {
             let replay = tracer.replay(&camera, i, 9, 0);
-            let layer = if replay.sample.airlight { &frame.airlight } else { &frame.direct };
-            assert_eq!(replay.sample.value, layer[i], "{name}, pixel {i}");
-            assert_eq!(replay.sample.value, frame.image(i), "{name}, pixel {i}");
+            assert_eq!(replay.sample.direct, frame.direct[i], "{name}, pixel {i}");
+            assert_eq!(replay.sample.airlight, frame.airlight[i], "{name}, pixel {i}");
+            assert_eq!(replay.sample.value(), frame.image(i), "{name}, pixel {i}");
             let mut sum = Spectrum::ZERO;
             for step in &replay.steps {
                 step.added().into_iter().for_each(|added| sum += added);

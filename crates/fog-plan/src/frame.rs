@@ -263,8 +263,11 @@ pub struct LightingSpec {
     pub environment: Option<EnvironmentSpec>,
     /// The sun.
     pub sun: Option<SunSpec>,
-    /// Whether the scene's emitting surfaces shine.
+    /// Whether the scene file's emitting surfaces and lights shine.
     pub scene_emitters: bool,
+    /// Luminance in cd/m² that the radiance 1 stands for in the scene file; left out of records where it is 1.
+    #[serde(skip_serializing_if = "is_one")]
+    pub luminance_of_one_cd_m2: f64,
 }
 
 /// Uniform light from every direction.
@@ -339,4 +342,9 @@ pub enum Output {
     StandardError,
     /// Number of samples of each pixel.
     Samples,
+}
+
+/// For values that records leave out where they are 1.
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
 }

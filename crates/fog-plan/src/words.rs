@@ -37,7 +37,8 @@ fn edits(a: &str, b: &str) -> usize {
 
 /// Unit named by a key's suffix: symbol for values, and word for what is expected.
 pub(crate) fn unit_of(key: &str) -> Option<(&'static str, &'static str)> {
-    const UNITS: [(&str, &str, &str); 7] = [
+    const UNITS: [(&str, &str, &str); 8] = [
+        ("_cd_m2", "cd/m²", "candela per square metre"),
         ("_1_m3", "1/m³", "per cubic metre"),
         ("_1_m", "1/m", "per metre"),
         ("_m", "m", "metres"),

@@ -330,6 +330,17 @@ fn droplets() {
 }
 
 #[test]
+fn luminance_of_one() {
+    let head = HEAD.replace("lighting: day", "lighting: {luminance_of_one_cd_m2: 0}");
+    assert_eq!(
+        errors_with(&format!("{head}fog: none\n"), &[]),
+        [
+            "configs/x.yaml:4:36: lighting.luminance_of_one_cd_m2: 0 cd/m² is out of range; valid: 1e-6 to 1000000000 cd/m²"
+        ]
+    );
+}
+
+#[test]
 fn lights_at_a_wavelength() {
     let head = HEAD.replace("lighting: day", "lighting: {environment: {radiance: 1, wavelength_nm: 550}}");
     assert_eq!(

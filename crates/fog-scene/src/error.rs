@@ -88,6 +88,9 @@ pub enum SceneErrorKind {
     /// A node hierarchy that is no tree, or a transform that is no transform.
     #[error("{0}")]
     Node(String),
+    /// A light whose numbers are out of range.
+    #[error("{0}")]
+    Light(String),
     /// A material factor that is not a number of its range.
     #[error("{0}")]
     Material(String),

@@ -23,6 +23,8 @@ pub use uv_transform::UvTransform;
 pub mod bsdf;
 pub mod camera;
 pub mod emitters;
+pub mod lamp;
+pub mod lamp_tree;
 pub mod light;
 pub mod medium;
 pub mod phase;

@@ -4,6 +4,8 @@ use crate::bsdf::Bsdf;
 use crate::bvh::Hit;
 use crate::emitters::{EmitterTriangle, Emitters};
 use crate::gltf_load::LoadedScene;
+use crate::lamp::{Beam, Lamp};
+use crate::lamp_tree::LampTree;
 use crate::light::{Environment, Sun};
 use crate::material::AlphaMode;
 use crate::medium::Medium;
@@ -25,6 +27,10 @@ pub struct Scene {
     /// Sun, if any.
     pub sun: Option<Sun>,
     emitters: Emitters,
+    lamps: LampTree,
+    beams: Vec<Beam>,
+    /// Relative radiance of 1 cd/m² in the scene file.
+    of_one_nit: f32,
 }
 
 /// A surface point seen from a ray, ready for shading.
@@ -49,7 +55,9 @@ const LARGEST_CLEAR: f32 = 0.999_999;
 const POWER_GRID: u32 = 12;
 
 impl Scene {
-    /// Puts a frame's scene together; `scene_emitters` switches the emission of all materials.
+    /// Puts a frame's scene together; `scene_emitters` switches the emission of all materials and the lights of the scene
+    /// file. Its photometric units are taken for relative ones: 1 cd/m² for the radiance 1, and so on (see
+    /// [`Scene::with_luminance_of_one`]).
     #[must_use]
     pub fn new(
         loaded: Arc<LoadedScene>,
@@ -59,7 +67,53 @@ impl Scene {
         scene_emitters: bool,
     ) -> Self {
         let emitters = if scene_emitters { find_emitters(&loaded) } else { Emitters::default() };
-        Self { loaded, medium, environment, sun, emitters }
+        let mut scene = Self {
+            loaded,
+            medium,
+            environment,
+            sun,
+            emitters,
+            lamps: LampTree::default(),
+            beams: Vec::new(),
+            of_one_nit: 1.0,
+        };
+        if scene_emitters {
+            scene.light_lamps();
+        }
+        scene
+    }
+
+    /// The same scene where the relative radiance 1 stands for a luminance of `cd_m2`, above 0: what the scene file gives in
+    /// cd/m², cd and lx is divided by it. Environment and sun are relative already.
+    #[must_use]
+    pub fn with_luminance_of_one(mut self, cd_m2: f64) -> Self {
+        self.of_one_nit = (1.0 / cd_m2) as f32;
+        if !(self.lamps.lamps().is_empty() && self.beams.is_empty()) {
+            self.light_lamps();
+        }
+        self
+    }
+
+    fn light_lamps(&mut self) {
+        let scale = self.of_one_nit;
+        let lights = &self.loaded.lights;
+        self.lamps = LampTree::new(
+            lights.lamps.iter().map(|l| Lamp { intensity: l.intensity.map(|c| c * scale), ..*l }),
+        );
+        let beams = lights.beams.iter().map(|b| Beam { illuminance: b.illuminance.map(|c| c * scale), ..*b });
+        self.beams = beams.filter(|b| b.strength() > 0.0).collect();
+    }
+
+    /// Points and spots of the scene file, relative; none when they are switched off.
+    #[must_use]
+    pub fn lamps(&self) -> &LampTree {
+        &self.lamps
+    }
+
+    /// Directional lights of the scene file that shine, relative; none when they are switched off.
+    #[must_use]
+    pub fn beams(&self) -> &[Beam] {
+        &self.beams
     }
 
     /// Geometry, materials and objects.
@@ -140,7 +194,7 @@ impl Scene {
         surface.bsdf = Some(if clear > 0.0 { bsdf.beside_clear(clear.min(LARGEST_CLEAR)) } else { bsdf });
         if !self.emitters.is_empty() && (front || material.double_sided) {
             let share = values.coat_transmittance(cos) / (1.0 - clear.min(LARGEST_CLEAR));
-            surface.emission = upsample(values.emission, basis) * share;
+            surface.emission = upsample(values.emission, basis) * (share * self.of_one_nit);
         }
         surface
     }
@@ -164,7 +218,7 @@ impl Scene {
                 * coat.coat_transmittance(point.shading_normal.dot(direction).abs());
             rgb = rgb.map(|c| c * share);
         }
-        (rgb, point.geometric_normal)
+        (rgb.map(|c| c * self.of_one_nit), point.geometric_normal)
     }
 }
 

@@ -59,6 +59,9 @@ fn rich() -> Vec<u8> {
     let glass = json!({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": info}},
                        "pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}});
     root["materials"].as_array_mut().unwrap().push(glass);
+    root["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 40, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.75}}]}});
+    root["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
     let mut pane = root["meshes"][0]["primitives"][0].clone();
     pane["material"] = 1.into();
     root["meshes"][0]["primitives"].as_array_mut().unwrap().push(pane);
@@ -176,6 +179,73 @@ fn nodes_must_form_a_tree() {
         (1..=100_000).map(|i| if i < 100_000 { json!({"children": [i]}) } else { json!({"mesh": 0}) });
     root["nodes"] = chain.collect();
     assert_eq!(load_bytes("deep.glb", &glb(&root, &bin)).unwrap().geometry.triangles().len(), 1);
+}
+
+#[test]
+fn lights_say_what_is_wrong() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    root["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+    let with = |light: serde_json::Value| {
+        let mut root = root.clone();
+        root["extensions"] = json!({"KHR_lights_punctual": {"lights": [light]}});
+        root
+    };
+    for (light, expected) in [
+        (
+            json!({"type": "point", "name": "lamp", "intensity": -1}),
+            "light `lamp`: intensity is -1; valid: 0 or more, finite",
+        ),
+        (
+            json!({"type": "point", "color": [0, 2, 0]}),
+            "light `0`: color has the component 2; valid: 0 to 1, linear",
+        ),
+        (
+            json!({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}}),
+            "light `0`: innerConeAngle is 0.5 and outerConeAngle 0.5 rad; valid: 0 <= inner < outer <= pi/2",
+        ),
+    ] {
+        let message = refusal(&with(light), &bin);
+        assert!(message.ends_with(expected), "{message}");
+    }
+    // References to nothing, and kinds that do not exist, are errors too.
+    refusal(&root, &bin);
+    refusal(&with(json!({"type": "laser"})), &bin);
+    refusal(&with(json!({"type": "spot"})), &bin);
+    let mut flat = with(json!({"type": "directional"}));
+    flat["nodes"][0]["scale"] = json!([1, 1, 0]);
+    let message = refusal(&flat, &bin);
+    assert!(message.ends_with("its node has a scale of 0 along the light's axis"), "{message}");
+}
+
+#[test]
+fn lights_are_placed_by_their_nodes() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    let half = 0.5f64.sqrt();
+    root["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 40, "color": [1, 0.5, 0.25], "range": 20,
+         "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.75}},
+        {"type": "directional", "intensity": 3},
+        {"type": "point"}]}});
+    let turned = json!([-half, 0, 0, half]);
+    root["nodes"] = json!([
+        {"mesh": 0, "translation": [1, 2, 3], "scale": [2, 2, 2], "children": [1]},
+        {"translation": [0, 5, 0], "rotation": turned, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+        {"rotation": turned, "extensions": {"KHR_lights_punctual": {"light": 1}}},
+        {"extensions": {"KHR_lights_punctual": {"light": 2}}}]);
+    root["scenes"] = json!([{"nodes": [0, 2, 3]}]);
+    let scene = load_bytes("scene.glb", &glb(&root, &bin)).unwrap();
+    let [spot, point] = scene.lights.lamps[..] else { panic!("{:?}", scene.lights) };
+    let cone = spot.cone.unwrap();
+    // A quarter turn about X takes −Z to −Y; the parent's scale stretches the way there and nothing else.
+    assert!((spot.position - Vec3A::new(1.0, 12.0, 3.0)).length() < 1e-5);
+    assert!((cone.axis - Vec3A::NEG_Y).length() < 1e-6);
+    assert_eq!(spot.intensity, [40.0, 20.0, 10.0]);
+    assert!((cone.cos_inner - 0.968_912_4).abs() < 1e-6 && (cone.cos_outer - 0.731_688_9).abs() < 1e-6);
+    assert_eq!((point.position, point.intensity, point.cone), (Vec3A::ZERO, [1.0; 3], None));
+    let [beam] = scene.lights.beams[..] else { panic!("{:?}", scene.lights) };
+    assert!((beam.direction - Vec3A::Y).length() < 1e-6 && beam.illuminance == [3.0; 3]);
+    assert!(scene.warnings.iter().any(|w| w.contains("its range")), "{:?}", scene.warnings);
+    assert!(!scene.warnings.iter().any(|w| w.contains("not supported")), "{:?}", scene.warnings);
 }
 
 #[test]

@@ -1,12 +1,15 @@
 //! The analog integrator: the oracle that the fast one is tested against, and its explanation.
 //!
 //! It does what light does, backwards and at one wavelength: fly until something is hit, scatter or be absorbed, and look
-//! at what shines only when running into it. Nothing is estimated ahead, nothing is weighted between wavelengths.
+//! at what shines only when running into it. Nothing is estimated ahead, nothing is weighted between wavelengths. Lights
+//! without extent cannot be run into: all of them are looked at from every scattering.
 
+use crate::lights::lamp_light;
 use crate::path::PathTracer;
+use fog_core::colour::upsample;
 use fog_core::random::PathRng;
-use fog_core::spectrum::Wavelengths;
-use fog_core::{math, warp};
+use fog_core::spectrum::{Spectrum, Wavelengths};
+use fog_core::{Vec3A, math, warp};
 use fog_scene::camera::Ray;
 
 impl PathTracer<'_> {
@@ -36,6 +39,18 @@ impl PathTracer<'_> {
                 let to_local = surface.world_from_shading.transpose();
                 let sample =
                     surface.bsdf.and_then(|b| b.sample(to_local * -direction, rng.uniform(), rng.uniform2()));
+                if let Some(bsdf) =
+                    surface.bsdf.filter(|_| self.settings.max_depth.is_none_or(|max| edges < max))
+                {
+                    let lit =
+                        self.lamps_and_beams(surface.point.position, &basis, &wavelengths, rng, |towards| {
+                            let wi = to_local * towards;
+                            let agree = surface.normal.dot(towards) * wi.z > 0.0;
+                            let value = bsdf.eval(to_local * -direction, wi).0[0];
+                            (if agree { value } else { 0.0 }, surface.point.spawn_origin(towards))
+                        });
+                    sum += beta * lit;
+                }
                 let Some(sample) = sample else { return sum };
                 direction = (surface.world_from_shading * sample.wi).normalize();
                 if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
@@ -55,6 +70,13 @@ impl PathTracer<'_> {
                 let m = medium.phase.sample(droplet.row, &droplet.lanes, rng.uniform_f64(), rng.uniform());
                 let sin = (m * (2.0 - m)).max(0.0).sqrt();
                 origin += direction * t as f32;
+                if self.settings.max_depth.is_none_or(|max| edges < max) {
+                    sum += beta
+                        * self.lamps_and_beams(origin, &basis, &wavelengths, rng, |towards| {
+                            let m = 0.5 * (towards - direction).length_squared();
+                            (medium.phase.eval(droplet.row, m, &droplet.lanes)[0], origin)
+                        });
+                }
                 let local = warp::spherical(1.0 - m, sin, math::TAU_F32 * rng.uniform());
                 direction = (warp::frame(direction) * local).normalize();
             } else {
@@ -68,5 +90,39 @@ impl PathTracer<'_> {
             }
             edges += 1;
         }
+    }
+
+    /// Light of all lamps and beams at a point, each weighted by `value` of the unit vector towards it, which also says from
+    /// where to look.
+    fn lamps_and_beams(
+        &self,
+        from: Vec3A,
+        basis: &[Spectrum; 3],
+        wavelengths: &Wavelengths,
+        rng: &mut PathRng,
+        value: impl Fn(Vec3A) -> (f32, Vec3A),
+    ) -> f32 {
+        let lamps = (0..self.scene.lamps().lamps().len()).filter_map(|i| {
+            let light = lamp_light(self.scene, i, from, 1.0, basis)?;
+            Some((light.direction, light.distance, light.radiance[0]))
+        });
+        let beams = self.scene.beams().iter();
+        let beams = beams.map(|b| (b.direction, f32::INFINITY, upsample(b.illuminance, basis)[0]));
+        lamps
+            .chain(beams)
+            .map(|(direction, distance, irradiance)| {
+                let (weight, origin) = value(direction);
+                let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
+                if weight == 0.0 || self.scene.occluded(origin, direction, distance * (1.0 - 1e-4), key) {
+                    return 0.0;
+                }
+                let depth = self.medium.as_ref().map_or(0.0, |medium| {
+                    let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
+                    let lanes = medium.lanes(wavelengths);
+                    medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile)[0]
+                });
+                weight * irradiance * math::fast_exp(-depth)
+            })
+            .sum()
     }
 }

@@ -4,6 +4,7 @@
 //! No file access, clock, printing or global state (DESIGN invariant 1).
 
 mod analog;
+mod equiangular;
 mod lights;
 mod lobe;
 pub mod path;

@@ -8,6 +8,7 @@ use fog_core::colour::upsample;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
 use fog_scene::Hit;
+use fog_scene::lamp_tree::Receiver;
 use fog_scene::scene::Scene;
 
 /// Emitters of up to this area together are always aimed at: they are hard to run into.
@@ -15,12 +16,16 @@ const FULL_SHARE_M2: f32 = 100.0;
 /// Share of connections to emitters of any size. Whole façades are run into anyway: in the quickstart's nights a share of
 /// 0.1 instead of 1 takes 22 % less time at 2 % more noise.
 const LEAST_SHARE: f32 = 0.1;
+/// Distance at which the strongest lamp says what light of lamps is faint, in metres.
+const LAMP_LEVEL_M: f32 = 100.0;
 
-/// Probabilities of aiming at the sun and at the emitters; what they leave is no connection at all.
+/// Probabilities of aiming at the sun, the emitters, the lamps and the beams; what they leave is no connection at all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMix {
     sun: f32,
     emitters: f32,
+    lamps: f32,
+    beams: f32,
     shadow_scale: f32,
 }
 
@@ -28,11 +33,13 @@ pub(crate) struct LightMix {
 pub(crate) struct LightSample {
     pub(crate) direction: Vec3A,
     pub(crate) distance: f32,
-    /// Relative radiance; irradiance for a parallel beam.
+    /// Relative radiance; irradiance of a light without extent, across its direction.
     pub(crate) radiance: Spectrum,
-    /// Density in 1/sr including the choice of the light; the probability of the choice for a parallel beam.
+    /// Density in 1/sr including the choice of the light; the probability of the choice for a light without extent.
     pub(crate) pdf: f32,
     pub(crate) beam: bool,
+    /// Index of the lamp, if it is one.
+    pub(crate) lamp: Option<usize>,
 }
 
 impl LightSample {
@@ -47,21 +54,29 @@ impl LightSample {
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
         let (sun, emitters) = (scene.sun.is_some(), !scene.emitters().is_empty());
-        let share = if sun && emitters { 0.5 } else { 1.0 };
+        let (lamps, beams) = (!scene.lamps().lamps().is_empty(), !scene.beams().is_empty());
+        let kinds = [sun, emitters, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
+        let share = 1.0 / kinds.iter().sum::<f32>().max(1.0);
         let small = (FULL_SHARE_M2 / scene.emitters().area_m2()).clamp(LEAST_SHARE, 1.0);
         // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
         let sun_level = scene.sun.map_or(0.0, |s| s.irradiance / core::f32::consts::PI);
-        let level = sun_level.max(if emitters { 0.1 } else { 0.0 });
+        let strongest = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0f32, f32::max);
+        let lamp_level = strongest(&mut scene.lamps().lamps().iter().map(|l| l.strength()))
+            / (LAMP_LEVEL_M * LAMP_LEVEL_M * core::f32::consts::PI);
+        let beam_level = strongest(&mut scene.beams().iter().map(|b| b.strength())) / core::f32::consts::PI;
+        let level = sun_level.max(if emitters { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
             emitters: if emitters { share * small } else { 0.0 },
+            lamps: if lamps { share } else { 0.0 },
+            beams: if beams { share } else { 0.0 },
             shadow_scale: if level > 0.0 { 1.0 / (0.02 * level) } else { 1.0 },
         }
     }
 
     #[inline]
     pub(crate) fn any(&self) -> bool {
-        self.sun + self.emitters > 0.0
+        self.sun + self.emitters + self.lamps + self.beams > 0.0
     }
 
     #[inline]
@@ -72,6 +87,12 @@ impl LightMix {
     #[inline]
     pub(crate) fn emitter_probability(&self) -> f32 {
         self.emitters
+    }
+
+    /// Probability of aiming at any lamp.
+    #[inline]
+    pub(crate) fn lamp_probability(&self) -> f32 {
+        self.lamps
     }
 
     /// Reciprocal of the contribution from which on a shadow ray is always traced.
@@ -102,10 +123,11 @@ impl LightMix {
                 radiance: Spectrum::splat(value),
                 pdf: if beam { self.sun } else { self.sun * sun.pdf() },
                 beam,
+                lamp: None,
             });
         }
         if pick >= self.sun + self.emitters {
-            return None;
+            return self.without_extent(scene, from, pick - (self.sun + self.emitters), basis, rng);
         }
         let point = scene.emitters().sample(rng.uniform(), rng.uniform2())?;
         let offset = point.position - from;
@@ -124,6 +146,61 @@ impl LightMix {
             radiance: upsample(rgb, basis),
             pdf: self.emitters * point.pdf_area * distance * distance / cos,
             beam: false,
+            lamp: None,
         })
     }
+
+    /// Draws a lamp or a beam; `pick` is what remains of the choice of its kind.
+    fn without_extent(
+        &self,
+        scene: &Scene,
+        from: Vec3A,
+        pick: f32,
+        basis: &[Spectrum; 3],
+        rng: &mut PathRng,
+    ) -> Option<LightSample> {
+        if pick < self.lamps {
+            let (lamp, probability) = scene.lamps().choose(&Receiver::Point(from), rng.uniform_f64())?;
+            return lamp_light(scene, lamp, from, self.lamps * probability, basis);
+        }
+        let count = scene.beams().len();
+        if pick >= self.lamps + self.beams || count == 0 {
+            return None;
+        }
+        let index = (rng.uniform() * count as f32) as usize;
+        let beam = &scene.beams()[index.min(count - 1)];
+        Some(LightSample {
+            direction: beam.direction,
+            distance: f32::INFINITY,
+            radiance: upsample(beam.illuminance, basis),
+            pdf: self.beams / count as f32,
+            beam: true,
+            lamp: None,
+        })
+    }
+}
+
+/// A lamp seen from a point, found with this probability; `None` where it does not shine.
+pub(crate) fn lamp_light(
+    scene: &Scene,
+    index: usize,
+    from: Vec3A,
+    probability: f32,
+    basis: &[Spectrum; 3],
+) -> Option<LightSample> {
+    let lamp = &scene.lamps().lamps()[index];
+    let offset = lamp.position - from;
+    let distance = offset.length();
+    let direction = offset / distance;
+    let falloff = lamp.falloff(-direction);
+    let share = falloff / (distance * distance);
+    // Also false for the lamp's own place, where no direction leads to it.
+    (falloff > 0.0 && share.is_finite()).then(|| LightSample {
+        direction,
+        distance,
+        radiance: upsample(lamp.intensity, basis) * share,
+        pdf: probability,
+        beam: true,
+        lamp: Some(index),
+    })
 }

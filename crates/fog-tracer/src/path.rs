@@ -7,7 +7,8 @@
 //!
 //! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
 
-use crate::lights::LightMix;
+use crate::equiangular::Segment;
+use crate::lights::{LightMix, lamp_light};
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
 use crate::watch::{FlightEnd, Offer, Step, Visibility, Watch, Weights};
@@ -18,6 +19,7 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
+use fog_scene::lamp_tree::Receiver;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
@@ -51,6 +53,9 @@ pub struct PathRadiance {
     pub radiance: Spectrum,
     /// True if the path's first event was a scattering in the fog.
     pub airlight: bool,
+    /// Further radiance: light of lamps that the fog scatters along the first flight, whatever that flight ended at. It is
+    /// airlight too.
+    pub glow: Spectrum,
 }
 
 /// State of a path between two events.
@@ -68,6 +73,16 @@ struct Path {
 pub(crate) struct Lanes {
     pub(crate) basis: [Spectrum; 3],
     pub(crate) medium: Option<MediumLanes>,
+}
+
+/// How a flight through fog near lamps finds points: what other ways to a vertex a connection to a lamp must count.
+struct Flight<'a> {
+    /// Where points are also chosen by nearness to lamps.
+    segment: &'a Segment,
+    /// Distance of the vertex along it.
+    t: f64,
+    /// Densities of the path before its flight at each wavelength, over that of the hero's flight.
+    before: Spectrum,
 }
 
 /// What ends a flight.
@@ -126,12 +141,21 @@ impl<'a> PathTracer<'a> {
             r_l: Spectrum::ZERO,
             depth: 0,
         };
-        let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false };
+        let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
         let mut u = f64::from(first_flight);
         loop {
             // Fly to the next collision in the fog, or to a surface before it.
-            let event = self.fly(&path, &lanes, u);
+            let (event, end) = self.fly(&path, &lanes, u);
             watch.see(|| self.flight(&path, &lanes, u, &event));
+            let segment = self.lit_segment(&path, end);
+            if let Some(segment) = &segment {
+                let glow = self.glow(&path, segment, &lanes, rng, watch);
+                if path.depth == 0 {
+                    out.glow = glow;
+                } else {
+                    out.radiance += glow;
+                }
+            }
             let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
@@ -157,11 +181,20 @@ impl<'a> PathTracer<'a> {
                 Event::Collision { t, tau } => {
                     out.airlight |= path.depth == 0;
                     self.may_scatter(&path, watch) && {
+                        let before = (path.r_u, path.direction);
                         let scatterer = self.collide(&mut path, &lanes, t, tau, rng);
                         watch.see(|| self.collision(&path, &lanes, &scatterer));
-                        let before = path.direction;
-                        out.radiance += self.scatter_in_fog(&mut path, &scatterer, &lanes, rng, watch);
-                        watch.see(|| path.turn(before));
+                        let flight = segment.as_ref().map(|segment| Flight {
+                            segment,
+                            t,
+                            before: before.0
+                                * scatterer.probability_ratio
+                                * (1.0 / self.flight_density(&path, &lanes, tau)),
+                        });
+                        let flight = flight.as_ref();
+                        out.radiance +=
+                            self.scatter_in_fog(&mut path, &scatterer, flight, &lanes, rng, watch);
+                        watch.see(|| path.turn(before.1));
                         true
                     }
                 }
@@ -173,21 +206,97 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Samples the free flight at the hero wavelength and looks for a surface before its end.
+    /// Samples the free flight at the hero wavelength and looks for a surface before its end. Among lamps, also the distance
+    /// of the first surface behind it.
     #[inline(always)]
-    fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> Event {
+    fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> (Event, f64) {
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
             let tau = -math::f64::ln(1.0 - u);
             let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
             medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile).map(|t| (t, tau))
         });
         let t_max = collision.map_or(f32::INFINITY, |(t, _)| t as f32);
+        let reach = if self.lights.lamp_probability() > 0.0 { f32::INFINITY } else { t_max };
         // The number that chose the flight's length also tells partly transparent surfaces from holes.
-        match (self.scene.scatterer(path.origin, path.direction, t_max, u.to_bits()), collision) {
-            (Some(hit), _) => Event::Surface(hit),
-            (None, Some((t, tau))) => Event::Collision { t, tau },
-            (None, None) => Event::Escape,
+        let hit = self.scene.scatterer(path.origin, path.direction, reach, u.to_bits());
+        let end = hit.as_ref().map_or(f64::INFINITY, |hit| f64::from(hit.t));
+        let event = match (hit, collision) {
+            (Some(hit), _) if hit.t <= t_max => Event::Surface(hit),
+            (_, Some((t, tau))) => Event::Collision { t, tau },
+            (_, None) => Event::Escape,
+        };
+        (event, end)
+    }
+
+    /// The part of a flight that lies in fog which lamps may light; `end` is the distance of the first surface.
+    #[inline]
+    fn lit_segment(&self, path: &Path, end: f64) -> Option<Segment> {
+        let medium = self.medium.as_ref()?;
+        if self.lights.lamp_probability() == 0.0 || !self.may_scatter(path, &mut ()) {
+            return None;
         }
+        let (origin, direction) = (path.origin, path.direction);
+        let span = medium.profile.clip(f64::from(origin.y), f64::from(direction.y), end)?;
+        let (enter, exit) = (span.enter, span.exit);
+        (exit > enter).then_some(Segment { origin, direction, enter, exit })
+    }
+
+    /// Density per metre of the hero's flight to where the path is now, having crossed `tau`.
+    fn flight_density(&self, path: &Path, lanes: &Lanes, tau: f64) -> f32 {
+        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
+        medium.profile.sigma_t(y, &lanes.profile)[0] * math::fast_exp(-(tau as f32))
+    }
+
+    /// Light of a lamp that the fog scatters at a point of the flight chosen by its nearness to the lamp, balanced against
+    /// connections from where free flights end.
+    fn glow(
+        &self,
+        path: &Path,
+        segment: &Segment,
+        lanes: &Lanes,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> Spectrum {
+        let (medium, medium_lanes) =
+            self.medium.as_ref().zip(lanes.medium.as_ref()).expect("a lit segment needs fog");
+        let lamps = self.scene.lamps();
+        let Some((lamp, chosen)) = lamps.choose(&segment.receiver(), rng.uniform_f64()) else {
+            return Spectrum::ZERO;
+        };
+        let near = segment.near(lamps.lamps()[lamp].position);
+        let Some(t) = near.sample(rng.uniform_f64()) else { return Spectrum::ZERO };
+        let point = path.origin + path.direction * t as f32;
+        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
+        let y_point = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let scatterer = medium.phase.scatterer(medium.profile.zeta(y_point), &medium_lanes.phase, rng);
+        let Some(light) = lamp_light(self.scene, lamp, point, 1.0, &lanes.basis) else {
+            return Spectrum::ZERO;
+        };
+
+        let profile = medium.profile;
+        let depth = profile.optical_depth(y, dy, t, &medium_lanes.profile);
+        let flight = depth.exp_neg() * profile.sigma_t(y_point, &medium_lanes.profile);
+        let m = 0.5 * (light.direction - path.direction).length_squared();
+        let phase = medium.phase.eval(scatterer.row, m, &scatterer.lanes);
+        let transmittance = self.transmittance(point, light.direction, light.distance, lanes);
+        let value = path.beta
+            * flight
+            * profile.albedo(y_point, &medium_lanes.profile)
+            * scatterer.probability_ratio
+            * phase
+            * transmittance
+            * light.radiance;
+        let aimed = self.lights.lamp_probability() * lamps.probability(lamp, &Receiver::Point(point));
+        let own = Spectrum::splat(chosen * near.pdf(t) as f32);
+        let density = path.r_u * scatterer.probability_ratio * (flight * aimed + own);
+        let mean = density.mean();
+        if mean <= 0.0 {
+            return Spectrum::ZERO;
+        }
+        watch.see(|| Step::NearLamp { position: point, distance_m: t });
+        let offer = Offer { light: &light, value: phase, transmittance, worth: value * (1.0 / mean) };
+        self.unless_occluded(point, &offer, rng, watch)
     }
 
     /// Weights a flight of length `t` without collision: transmittance at each wavelength over the hero's.
@@ -234,6 +343,7 @@ impl<'a> PathTracer<'a> {
         &self,
         path: &mut Path,
         scatterer: &Scatterer,
+        flight: Option<&Flight<'_>>,
         lanes: &Lanes,
         rng: &mut PathRng,
         watch: &mut impl Watch,
@@ -245,7 +355,7 @@ impl<'a> PathTracer<'a> {
             (sun.direction, math::fast_exp(-tau[0]))
         });
         let lobe = FogLobe::new(&medium.phase, scatterer, path.direction, sun);
-        let sum = self.lights_in_fog(path, &lobe, lanes, rng, watch);
+        let sum = self.lights_in_fog(path, &lobe, flight, lanes, rng, watch);
 
         let (direction, value) = lobe.sample(rng);
         if !medium.grey || self.lights.any() {
@@ -300,6 +410,7 @@ impl<'a> PathTracer<'a> {
         &self,
         path: &Path,
         lobe: &FogLobe<'_>,
+        flight: Option<&Flight<'_>>,
         lanes: &Lanes,
         rng: &mut PathRng,
         watch: &mut impl Watch,
@@ -309,9 +420,13 @@ impl<'a> PathTracer<'a> {
         };
         let value = lobe.value(light.direction);
         let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
-        let density = light.density(value.density * transmittance);
-        let sum =
-            path.beta * value.phase * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
+        let mut density = path.r_u * light.density(value.density * transmittance);
+        if let Some((flight, lamp)) = flight.zip(light.lamp) {
+            let lamps = self.scene.lamps();
+            let near = flight.segment.near(lamps.lamps()[lamp].position).pdf(flight.t) as f32;
+            density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
+        }
+        let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());
         let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum };
         self.unless_occluded(path.origin, &offer, rng, watch)
     }

@@ -63,10 +63,18 @@ pub fn render(
 /// One path as the film gets it: linear sRGB, or for a single wavelength its radiance in channel 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The light that the path found.
-    pub value: Rgb,
-    /// Whether the fog scattered it first; else it came straight.
-    pub airlight: bool,
+    /// Light that came straight.
+    pub direct: Rgb,
+    /// Light that the fog scattered first.
+    pub airlight: Rgb,
+}
+
+impl Sample {
+    /// Both together.
+    #[must_use]
+    pub fn value(&self) -> Rgb {
+        sum(self.direct, self.airlight)
+    }
 }
 
 /// The beginning of one path: all that is drawn before it flies.
@@ -117,11 +125,10 @@ impl PathTracer<'_> {
     /// Adds samples of pixel `i` (row-major) to its film, in order.
     fn pixel(&self, camera: &Camera, i: usize, seed: u64, samples: Range<u64>, film: &mut PixelFilm) {
         for sample in samples {
-            let Sample { value, airlight } = self.sample(camera, i, seed, sample);
+            let Sample { direct, airlight } = self.sample(camera, i, seed, sample);
             if self.settings.wavelength_nm.is_some() {
-                film.add_mono(if airlight { 0.0 } else { value[0] }, if airlight { value[0] } else { 0.0 });
+                film.add_mono(direct[0], airlight[0]);
             } else {
-                let (direct, airlight) = if airlight { ([0.0; 3], value) } else { (value, [0.0; 3]) };
                 film.add(direct, airlight);
             }
         }
@@ -159,16 +166,27 @@ impl PathTracer<'_> {
     /// The colour of what a path saw.
     #[inline]
     pub(crate) fn finish(&self, wavelengths: &Wavelengths, seen: PathRadiance) -> Sample {
-        if self.settings.wavelength_nm.is_some() {
-            return Sample { value: [seen.radiance[0], 0.0, 0.0], airlight: seen.airlight };
-        }
-        let response = self.observer.lane_response(wavelengths);
-        let mut value = [0.0; 3];
-        for lane in 0..LANES {
-            for c in 0..3 {
-                value[c] += seen.radiance[lane] * response[lane][c];
+        let (found, glow) = if self.settings.wavelength_nm.is_some() {
+            ([seen.radiance[0], 0.0, 0.0], [seen.glow[0], 0.0, 0.0])
+        } else {
+            let response = self.observer.lane_response(wavelengths);
+            let (mut found, mut glow) = ([0.0; 3], [0.0; 3]);
+            for lane in 0..LANES {
+                for c in 0..3 {
+                    found[c] += seen.radiance[lane] * response[lane][c];
+                    glow[c] += seen.glow[lane] * response[lane][c];
+                }
             }
+            (found, glow)
+        };
+        if seen.airlight {
+            Sample { direct: [0.0; 3], airlight: sum(found, glow) }
+        } else {
+            Sample { direct: found, airlight: glow }
         }
-        Sample { value, airlight: seen.airlight }
     }
+}
+
+fn sum(a: Rgb, b: Rgb) -> Rgb {
+    [0, 1, 2].map(|c| a[c] + b[c])
 }

@@ -39,7 +39,7 @@ impl PathTracer<'_> {
             ray: start.ray,
             wavelengths: start.wavelengths,
             steps,
-            radiance: seen.radiance,
+            radiance: seen.radiance + seen.glow,
             response: colour.then(|| self.observer.lane_response(&start.wavelengths)),
             sample: self.finish(&start.wavelengths, seen),
         }

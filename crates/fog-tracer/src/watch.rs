@@ -122,17 +122,24 @@ pub enum Step {
         /// What the path adds to the sum: environment and disc of the sun.
         added: Spectrum,
     },
+    /// Chose a point of the last flight by its nearness to a lamp; the connection that follows starts there.
+    NearLamp {
+        /// Where.
+        position: Vec3A,
+        /// Along the flight, in metres.
+        distance_m: f64,
+    },
     /// Looked for light from the last event on (next-event estimation) and found a direction to a light.
     Connection {
         /// To the light.
         direction: Vec3A,
         /// In metres; infinite to the sun.
         distance_m: f32,
-        /// Radiance of the light, or irradiance of a parallel beam.
+        /// Radiance of the light, or irradiance of a light without extent.
         radiance: Spectrum,
-        /// Density of the light sampling in 1/sr with the choice of the light; the choice's probability for a beam.
+        /// Density of the light sampling in 1/sr with the choice of the light; the choice's probability for a light without extent.
         density: f32,
-        /// Whether the light is a parallel beam.
+        /// Whether the light has no extent: a lamp or a parallel beam.
         beam: bool,
         /// Phase function in 1/sr, or BSDF times cosine.
         value: Spectrum,

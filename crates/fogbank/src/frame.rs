@@ -52,7 +52,9 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
     let fog = Fog::new(&spec.fog, resources)?;
     let (environment, sun) = lights(&spec.lighting);
     let medium = fog.as_ref().map(|f| f.medium.clone());
-    Ok((Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters), fog))
+    let scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
+        .with_luminance_of_one(spec.lighting.luminance_of_one_cd_m2);
+    Ok((scene, fog))
 }
 
 /// Renders a frame on the current rayon pool. `progress` hears of the paths and may stop the work.
@@ -71,6 +73,6 @@ pub fn render_frame(
     let frame =
         fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
             .ok_or(Error::Cancelled)?;
-    let record = record(spec, fog.as_ref(), &camera, &frame, config_digest);
+    let record = record(spec, fog.as_ref(), &scene, &camera, &frame, config_digest);
     Ok(Rendered { frame, record, camera })
 }

@@ -5,6 +5,7 @@ use crate::fog::Fog;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
 use fog_scene::camera::Camera;
+use fog_scene::scene::Scene;
 use fog_tracer::truth::{TAU_NM, TRANSMITTANCE_NM};
 use serde_json::{Value, json};
 
@@ -12,6 +13,7 @@ use serde_json::{Value, json};
 pub(crate) fn record(
     spec: &FrameSpec,
     fog: Option<&Fog>,
+    scene: &Scene,
     camera: &Camera,
     frame: &Frame,
     config_digest: &str,
@@ -49,6 +51,15 @@ pub(crate) fn record(
         "tau_wavelength_nm": TAU_NM,
         "image": "direct + airlight",
     });
+    let (lamps, beams) = (scene.lamps().lamps().len(), scene.beams().len());
+    if lamps + beams > 0 {
+        value["lighting"]["scene_lights"] = json!({
+            "points_and_spots": lamps,
+            "directional": beams,
+            "luminance_of_one_cd_m2": spec.lighting.luminance_of_one_cd_m2,
+            "units": "cd, lx and cd/m² of the scene file, divided by the luminance that the radiance 1 stands for",
+        });
+    }
     value["noise"] = noise_json(spec, frame);
     value["config_digest"] = json!(config_digest);
     value["code"] = json!({ "version": env!("CARGO_PKG_VERSION"), "digest": CODE_DIGEST });

@@ -69,10 +69,10 @@ impl Replayed {
         (0..3).map(sum).collect()
     }
 
-    /// What the film gets: three values, or one.
-    fn sample(&self) -> &[f32] {
+    /// The channels that the frame has: three, or one.
+    fn channels<'a>(&self, value: &'a [f32; 3]) -> &'a [f32] {
         let used = if self.path.response.is_some() { 3 } else { 1 };
-        &self.path.sample.value[..used]
+        &value[..used]
     }
 
     fn material(&self, index: u32) -> &str {

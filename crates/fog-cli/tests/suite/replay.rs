@@ -30,8 +30,9 @@ fn a_replayed_path_is_the_films_sample() {
         let i = y.parse::<usize>().expect("row") * 24 + x.parse::<usize>().expect("column");
         let picture: Vec<f32> = ["R", "G", "B"].iter().map(|c| channels[*c].values[i]).collect();
         assert_eq!(numbers(&told["value"]), picture, "{pixel}: {told:#}");
-        let layer = if told["airlight"] == true { "airlight" } else { "direct" };
-        assert_eq!(numbers(&told["value"])[1], channels[&format!("{layer}.G")].values[i], "{pixel}");
+        for layer in ["direct", "airlight"] {
+            assert_eq!(numbers(&told[layer])[1], channels[&format!("{layer}.G")].values[i], "{pixel}");
+        }
 
         // The steps add up to the radiance, in their order.
         let steps = told["steps"].as_array().expect("steps");

@@ -49,13 +49,19 @@ pub(crate) struct LightingMap {
     /// The sun. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sun: Option<SunFile>,
-    /// Whether the scene's emitting surfaces shine.
+    /// Whether the scene file's emitting surfaces and lights shine.
     pub(crate) scene_emitters: bool,
+    /// Luminance in cd/m² that the radiance 1 stands for: emission (cd/m²), lamps (cd) and directional lights (lx) of the
+    /// scene file are divided by it.
+    #[schemars(range(min = ranges::LUMINANCE_CD_M2.min, max = ranges::LUMINANCE_CD_M2.max))]
+    /// Absent: 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) luminance_of_one_cd_m2: Option<f64>,
 }
 
 impl Default for LightingMap {
     fn default() -> Self {
-        Self { environment: None, sun: None, scene_emitters: true }
+        Self { environment: None, sun: None, scene_emitters: true, luminance_of_one_cd_m2: None }
     }
 }
 
@@ -102,6 +108,9 @@ pub(crate) struct SunFile {
     pub(crate) wavelength_nm: Option<f64>,
 }
 
+/// Luminance of the radiance 1 unless said otherwise: glTF's own units are taken as they are.
+pub(crate) const LUMINANCE_OF_ONE_CD_M2: f64 = 1.0;
+
 /// Mean angular diameter of the sun in degrees.
 pub(crate) const SUN_DIAMETER_DEG: f64 = 0.533;
 
@@ -129,7 +138,7 @@ impl<'de> Visitor<'de> for LightingVisitor {
     type Value = LightingFile;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters")
+        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters, luminance_of_one_cd_m2")
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<LightingFile, E> {

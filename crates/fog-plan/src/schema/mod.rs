@@ -16,7 +16,9 @@ use serde::{Deserialize, Serialize};
 pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
-pub(crate) use light::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile};
+pub(crate) use light::{
+    EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile,
+};
 pub(crate) use or_none::OrNone;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};

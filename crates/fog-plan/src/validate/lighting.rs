@@ -4,7 +4,9 @@ use super::Check;
 use crate::{
     frame::{EnvironmentSpec, LightingSpec, SunSpec},
     ranges,
-    schema::{EnvironmentFile, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile},
+    schema::{
+        EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile,
+    },
 };
 
 impl Check<'_> {
@@ -18,15 +20,18 @@ impl Check<'_> {
             LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
             LightingFile::Map(map) => map,
         };
-        let LightingMap { environment, sun, scene_emitters } = map;
+        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2 } = map;
         let environment =
             environment.as_ref().map_or(Some(None), |e| self.environment(e, rendered_nm).map(Some));
         let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, rendered_nm).map(Some));
+        let path = "lighting.luminance_of_one_cd_m2";
+        let luminance = self.optional(path, *luminance_of_one_cd_m2, ranges::LUMINANCE_CD_M2);
         Some(LightingSpec {
             preset: None,
             environment: environment?,
             sun: sun?,
             scene_emitters: *scene_emitters,
+            luminance_of_one_cd_m2: luminance?.unwrap_or(LUMINANCE_OF_ONE_CD_M2),
         })
     }
 
@@ -93,10 +98,15 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             environment: environment(1.0),
             sun: None,
             scene_emitters: false,
+            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
         },
-        Preset::Night => {
-            LightingSpec { preset: Some("night"), environment: None, sun: None, scene_emitters: true }
-        }
+        Preset::Night => LightingSpec {
+            preset: Some("night"),
+            environment: None,
+            sun: None,
+            scene_emitters: true,
+            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+        },
         Preset::Sunny => LightingSpec {
             preset: Some("sunny"),
             environment: environment(0.3),
@@ -108,6 +118,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
                 wavelength_nm: None,
             }),
             scene_emitters: false,
+            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
         },
     }
 }

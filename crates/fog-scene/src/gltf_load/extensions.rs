@@ -5,7 +5,8 @@ use crate::error::SceneErrorKind;
 use gltf::json::Root;
 
 /// Extensions that are honoured.
-const SUPPORTED: [&str; 7] = [
+const SUPPORTED: [&str; 8] = [
+    "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",

@@ -2,9 +2,10 @@
 
 use super::accessor::Buffers;
 use super::primitives::{self, Primitive, mesh_name};
-use super::{SceneObject, Warnings};
+use super::{SceneObject, Warnings, lights};
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
+use crate::lamp::PunctualLights;
 use crate::material::Material;
 use crate::texture::Texture;
 use crate::triangle::Triangle;
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Vertices farther than this from the origin are refused, in metres.
-const FARTHEST: f64 = 1e9;
+pub(super) const FARTHEST: f64 = 1e9;
 
 /// The scene without its hierarchy.
 #[derive(Default)]
@@ -24,6 +25,7 @@ pub(super) struct Flat {
     pub(super) colors: CornerValues,
     pub(super) tangents: CornerValues,
     pub(super) objects: Vec<SceneObject>,
+    pub(super) lights: PunctualLights,
 }
 
 /// What a node hands down to its children.
@@ -73,6 +75,9 @@ pub(super) fn flatten(
             class: label("class", &above.class),
             instance: label("instance", &above.instance),
         };
+        if let Some(light) = node.light() {
+            lights::place(&light, &here.world, &mut flat.lights, warnings)?;
+        }
         if let Some(mesh) = mesh {
             let primitives = match meshes.get(&mesh.index()) {
                 Some(primitives) => Rc::clone(primitives),

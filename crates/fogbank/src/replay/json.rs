@@ -22,8 +22,9 @@ impl Replayed {
             "steps": path.steps.iter().map(|step| self.step_json(step)).collect::<Vec<_>>(),
             "radiance": path.radiance.0,
             "response": path.response,
-            "airlight": path.sample.airlight,
-            "value": self.sample(),
+            "value": self.channels(&path.sample.value()),
+            "direct": self.channels(&path.sample.direct),
+            "airlight": self.channels(&path.sample.airlight),
         })
     }
 
@@ -75,6 +76,11 @@ impl Replayed {
                     "added": added.0,
                 })
             }
+            Step::NearLamp { position, distance_m } => json!({
+                "step": "near_lamp",
+                "position_m": vector(*position),
+                "distance_m": distance_m,
+            }),
             Step::Connection { .. } => self.connection_json(step),
             Step::Turn { direction, cosine, depth, weights } => json!({
                 "step": "turn",
@@ -116,7 +122,7 @@ impl Replayed {
             "distance_m": distance_m,
             "light": numbers(radiance),
             "density": density,
-            "parallel_beam": beam,
+            "without_extent": beam,
             "scattering": numbers(value),
             "transmittance": numbers(transmittance),
             "worth": numbers(worth),

@@ -31,9 +31,11 @@ impl Display for Replayed {
             }
         }
         let steps = path.steps.iter().filter(|s| s.added().is_some_and(|a| !a.is_zero())).count();
-        let kind = if path.sample.airlight { "airlight" } else { "direct light" };
-        writeln!(f, "\nsum of {steps} contribution{}: {kind}", if steps == 1 { "" } else { "s" })?;
-        writeln!(f, "to the film: {}", list(self.sample()))
+        let sample = &path.sample;
+        let [all, direct, airlight] =
+            [&sample.value(), &sample.direct, &sample.airlight].map(|v| list(self.channels(v)));
+        writeln!(f, "\nsum of {steps} contribution{}", if steps == 1 { "" } else { "s" })?;
+        writeln!(f, "to the film: {all}; of it came straight {direct}, from the fog {airlight}")
     }
 }
 
@@ -87,6 +89,13 @@ impl Replayed {
                 writeln!(f, "the sky")?;
                 self.adds(f, "shines", added)
             }
+            Step::NearLamp { position, distance_m } => {
+                writeln!(
+                    f,
+                    "a point of the flight near a lamp, after {distance_m:.3} m, at {} m",
+                    at(*position)
+                )
+            }
             Step::Connection { .. } => self.connection(f, step),
             Step::Turn { direction, cosine, depth, weights } => {
                 let angle = math::f64::acos(f64::from(cosine.clamp(-1.0, 1.0))).to_degrees();
@@ -118,8 +127,10 @@ impl Replayed {
         else {
             return Ok(());
         };
-        if *beam {
-            writeln!(f, "looks for light in the sun, towards {}", along(*direction))?;
+        if *beam && distance_m.is_finite() {
+            writeln!(f, "looks for light of a lamp {distance_m:.3} m away, towards {}", along(*direction))?;
+        } else if *beam {
+            writeln!(f, "looks for light of a parallel beam, towards {}", along(*direction))?;
         } else if distance_m.is_infinite() {
             writeln!(
                 f,
