@@ -1,13 +1,17 @@
 //! A replayed path is the one that was rendered: to the bit, for every pixel.
 
+use fog_core::Vec3A;
 use fog_core::colour::Observer;
 use fog_core::spectrum::Spectrum;
+use fog_scene::LoadedScene;
+use fog_scene::lamp::{Lamp, PunctualLights};
 use fog_scene::light::{Environment, Sun};
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
 use fog_tracer::path::PathTracer;
 use fog_tracer::settings::Settings;
 use fog_tracer::watch::{Step, Visibility};
+use std::sync::Arc;
 
 #[test]
 fn replays_are_what_the_film_got() {
@@ -47,4 +51,35 @@ fn replays_are_what_the_film_got() {
         }
     }
     assert!(collisions.min(free).min(blocked).min(roulette) > 10, "{collisions} {free} {blocked} {roulette}");
+}
+
+#[test]
+fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
+    let lamp = Lamp { position: Vec3A::new(1.0, 4.0, -12.0), intensity: [300.0; 3], cone: None };
+    let street = scenes::load("street_day.glb");
+    let lights = PunctualLights { lamps: vec![lamp], beams: Vec::new() };
+    let lit = Arc::new(LoadedScene { lights, ..(*street).clone() });
+    let scene = Scene::new(lit, Some(scenes::coloured_fog(40.0, 0.05, 0.9)), None, None, true);
+    let camera = scenes::camera(1.7, 10.0, -3.0, 16, 9, 60.0);
+    let settings = Settings { samples: 1, max_depth: None, wavelength_nm: None, stop: None };
+    let observer = Observer::new();
+    let tracer = PathTracer::new(&scene, &observer, settings);
+    let frame = scenes::render(&scene, &camera, 1, None, 9);
+    let mut near = 0;
+    for i in 0..frame.pixel_count() {
+        let replay = tracer.replay(&camera, i, 9, 0);
+        assert_eq!(
+            (replay.sample.direct, replay.sample.airlight),
+            (frame.direct[i], frame.airlight[i]),
+            "{i}"
+        );
+        let mut sum = Spectrum::ZERO;
+        replay.steps.iter().filter_map(Step::added).for_each(|added| sum += added);
+        // What lamps add along the first flight has a sum of its own, so that the order of additions differs.
+        let most = replay.radiance.max_lane();
+        let apart = (sum - replay.radiance).0.iter().fold(0.0f32, |a, d| a.max(d.abs()));
+        assert!(apart <= 1e-5 * most, "{i}: {sum:?} {:?}", replay.radiance);
+        near += replay.steps.iter().filter(|step| matches!(step, Step::NearLamp { .. })).count();
+    }
+    assert!(near > 100, "{near}");
 }
