@@ -29,14 +29,8 @@ struct Arguments {
 }
 
 fn arguments() -> Result<Arguments, String> {
-    let mut out = Arguments {
-        scene: "day".into(),
-        samples: 16,
-        seed: 1,
-        threads: 2,
-        write: None,
-        describe: None,
-    };
+    let mut out =
+        Arguments { scene: "day".into(), samples: 16, seed: 1, threads: 2, write: None, describe: None };
     let mut words = std::env::args().skip(1).filter(|a| a != "--bench");
     while let Some(key) = words.next() {
         let value = words.next().ok_or(format!("{key}: a value is missing"))?;
@@ -48,7 +42,11 @@ fn arguments() -> Result<Arguments, String> {
             "--threads" => out.threads = number()? as usize,
             "--write" => out.write = Some(value),
             "--describe" => out.describe = Some(value),
-            _ => return Err(format!("{key}: unknown; known: --scene --samples --seed --threads --write --describe")),
+            _ => {
+                return Err(format!(
+                    "{key}: unknown; known: --scene --samples --seed --threads --write --describe"
+                ));
+            }
         }
     }
     Ok(out)

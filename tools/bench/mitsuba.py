@@ -106,8 +106,8 @@ def mitsuba_scene(mi, name, fog):
     transform = mi.ScalarTransform4f
 
     def texels(values):
-        # Mitsuba puts the first row of an image at v = 1.
-        return {"type": "bitmap", "bitmap": mi.Bitmap(np.ascontiguousarray(values[::-1])), "filter_type": "nearest",
+        # Row 0 at v = 0.
+        return {"type": "bitmap", "bitmap": mi.Bitmap(np.ascontiguousarray(values)), "filter_type": "nearest",
                 "wrap_mode": "clamp", "raw": False}
 
     out = {"type": "scene"}
