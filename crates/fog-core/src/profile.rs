@@ -353,30 +353,25 @@ impl ExtinctionProfile {
     #[inline]
     #[must_use]
     pub fn free_flight(&self, y0: f64, dy: f64, t_max: f64, tau: f64, lanes: &ProfileLanes) -> Option<f64> {
-        let span = self.clip(y0, dy, t_max)?;
-        let mut place = self.locate(rise(y0, dy, span.enter));
-        let (mut t, mut rest) = (span.enter, tau);
-        // Does it end within this segment?
-        match self.flight_in_segment(place, dy, rest, lanes) {
-            Flight::Ends(x) => return (t + x < span.exit).then_some(t + x),
-            Flight::Leaves if dy == 0.0 => return None,
-            Flight::Leaves => {}
-        }
-        // No: jump to the segment whose cumulative depth holds the target.
-        let target = self.hero(&self.cumulative_products(place), lanes) + tau * dy;
+        let inside = y0 >= self.base_y() && y0 <= self.top_y();
+        // Most flights begin inside and need no clipping: they leave the layer where its depth is used up.
+        let enter = if inside { 0.0 } else { self.clip(y0, dy, t_max)?.enter };
+        let mut place = self.locate(rise(y0, dy, enter));
+        let (mut t, mut rest) = (enter, tau);
+        let here = self.hero(&self.cumulative_products(place), lanes);
+        let target = here + tau * dy;
         let found = self.find_cumulative(target, lanes);
-        if found != place.segment {
+        if found != place.segment && dy != 0.0 {
+            // Jump to the edge of the segment whose cumulative depth holds the target.
+            let edge = if dy > 0.0 { found } else { found + 1 };
+            rest = ((target - self.hero(&self.nodes[edge].cumulative, lanes)) / dy).max(0.0);
+            t = (self.datum_m + self.altitude_m[edge] - y0) / dy;
             place = Place { segment: found, t: if dy > 0.0 { 0.0 } else { 1.0 } };
-            rest = (target - self.hero(&self.cumulative_products(place), lanes)) / dy;
-            let edge = self.altitude_m[if dy > 0.0 { found } else { found + 1 }];
-            t = (self.datum_m + edge - y0) / dy;
-            if t >= span.exit {
-                return None;
-            }
         }
-        match self.flight_in_segment(place, dy, rest.max(0.0), lanes) {
-            Flight::Ends(x) => Some(t + x).filter(|&hit| hit < span.exit),
-            Flight::Leaves => self.flight_beyond(place, dy, t, span.exit),
+        match self.flight_in_segment(place, dy, rest, lanes) {
+            Flight::Ends(x) => Some(t + x).filter(|&hit| hit < t_max),
+            Flight::Leaves if dy == 0.0 => None,
+            Flight::Leaves => self.flight_beyond(place, dy, t, t_max),
         }
     }
 

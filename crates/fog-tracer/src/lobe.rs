@@ -79,7 +79,9 @@ impl<'a> FogLobe<'a> {
         let axis = if towards_sun { self.sun } else { self.before };
         let m =
             self.phase.sample(self.scatterer.row, &self.scatterer.lanes, rng.uniform_f64(), rng.uniform());
-        let local = warp::spherical(1.0 - m, (m * (2.0 - m)).max(0.0).sqrt(), math::TAU_F32 * rng.uniform());
+        let (sin_phi, cos_phi) = math::sin_cos_turns(rng.uniform());
+        let sin = (m * (2.0 - m)).max(0.0).sqrt();
+        let local = Vec3A::new(sin * cos_phi, sin * sin_phi, 1.0 - m);
         let after = (warp::frame(axis) * local).normalize();
         let value = if towards_sun { self.value(after) } else { self.mix(self.at(m), after) };
         (after, value)

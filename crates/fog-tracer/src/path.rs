@@ -211,7 +211,7 @@ impl<'a> PathTracer<'a> {
     #[inline(always)]
     fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> (Event, f64) {
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
-            let tau = -math::f64::ln(1.0 - u);
+            let tau = math::neg_ln(1.0 - u);
             let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
             medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile).map(|t| (t, tau))
         });
