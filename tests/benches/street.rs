@@ -111,7 +111,7 @@ fn main() -> Result<(), String> {
         std::fs::write(path, describe(&scene)).map_err(|e| format!("{path}: {e}"))?;
     }
     let camera = scenes::camera(1.7, 0.0, 0.0, 480, 270, 60.0);
-    let settings = Settings { samples: arguments.samples, max_depth: None, wavelength_nm: None };
+    let settings = Settings { samples: arguments.samples, max_depth: None, wavelength_nm: None, stop: None };
     let observer = Observer::new();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
     let pool = pool.map_err(|e| e.to_string())?;
