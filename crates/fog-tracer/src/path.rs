@@ -7,11 +7,14 @@
 //!
 //! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
 
-use crate::equiangular::Segment;
-use crate::lights::{LightMix, lamp_light};
+mod connect;
+mod glow;
+
+use self::glow::Flight;
+use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
-use crate::watch::{FlightEnd, Offer, Step, Visibility, Watch, Weights};
+use crate::watch::{FlightEnd, Step, Watch, Weights};
 use fog_core::colour::Observer;
 use fog_core::profile::ProfileLanes;
 use fog_core::random::PathRng;
@@ -19,7 +22,6 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
-use fog_scene::lamp_tree::Receiver;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
@@ -73,16 +75,6 @@ struct Path {
 pub(crate) struct Lanes {
     pub(crate) basis: [Spectrum; 3],
     pub(crate) medium: Option<MediumLanes>,
-}
-
-/// How a flight through fog near lamps finds points: what other ways to a vertex a connection to a lamp must count.
-struct Flight<'a> {
-    /// Where points are also chosen by nearness to lamps.
-    segment: &'a Segment,
-    /// Distance of the vertex along it.
-    t: f64,
-    /// Densities of the path before its flight at each wavelength, over that of the hero's flight.
-    before: Spectrum,
 }
 
 /// What ends a flight.
@@ -228,77 +220,6 @@ impl<'a> PathTracer<'a> {
         (event, end)
     }
 
-    /// The part of a flight that lies in fog which lamps may light; `end` is the distance of the first surface.
-    #[inline]
-    fn lit_segment(&self, path: &Path, end: f64) -> Option<Segment> {
-        let medium = self.medium.as_ref()?;
-        if self.lights.lamp_probability() == 0.0 || !self.may_scatter(path, &mut ()) {
-            return None;
-        }
-        let (origin, direction) = (path.origin, path.direction);
-        let span = medium.profile.clip(f64::from(origin.y), f64::from(direction.y), end)?;
-        let (enter, exit) = (span.enter, span.exit);
-        (exit > enter).then_some(Segment { origin, direction, enter, exit })
-    }
-
-    /// Density per metre of the hero's flight to where the path is now, having crossed `tau`.
-    fn flight_density(&self, path: &Path, lanes: &Lanes, tau: f64) -> f32 {
-        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
-        medium.profile.sigma_t(y, &lanes.profile)[0] * math::fast_exp(-(tau as f32))
-    }
-
-    /// Light of a lamp that the fog scatters at a point of the flight chosen by its nearness to the lamp, balanced against
-    /// connections from where free flights end.
-    fn glow(
-        &self,
-        path: &Path,
-        segment: &Segment,
-        lanes: &Lanes,
-        rng: &mut PathRng,
-        watch: &mut impl Watch,
-    ) -> Spectrum {
-        let (medium, medium_lanes) =
-            self.medium.as_ref().zip(lanes.medium.as_ref()).expect("a lit segment needs fog");
-        let lamps = self.scene.lamps();
-        let Some((lamp, chosen)) = lamps.choose(&segment.receiver(), rng.uniform_f64()) else {
-            return Spectrum::ZERO;
-        };
-        let near = segment.near(lamps.lamps()[lamp].position);
-        let Some(t) = near.sample(rng.uniform_f64()) else { return Spectrum::ZERO };
-        let point = path.origin + path.direction * t as f32;
-        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let y_point = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
-        let scatterer = medium.phase.scatterer(medium.profile.zeta(y_point), &medium_lanes.phase, rng);
-        let Some(light) = lamp_light(self.scene, lamp, point, 1.0, &lanes.basis) else {
-            return Spectrum::ZERO;
-        };
-
-        let profile = medium.profile;
-        let depth = profile.optical_depth(y, dy, t, &medium_lanes.profile);
-        let flight = depth.exp_neg() * profile.sigma_t(y_point, &medium_lanes.profile);
-        let m = 0.5 * (light.direction - path.direction).length_squared();
-        let phase = medium.phase.eval(scatterer.row, m, &scatterer.lanes);
-        let transmittance = self.transmittance(point, light.direction, light.distance, lanes);
-        let value = path.beta
-            * flight
-            * profile.albedo(y_point, &medium_lanes.profile)
-            * scatterer.probability_ratio
-            * phase
-            * transmittance
-            * light.radiance;
-        let aimed = self.lights.lamp_probability() * lamps.probability(lamp, &Receiver::Point(point));
-        let own = Spectrum::splat(chosen * near.pdf(t) as f32);
-        let density = path.r_u * scatterer.probability_ratio * (flight * aimed + own);
-        let mean = density.mean();
-        if mean <= 0.0 {
-            return Spectrum::ZERO;
-        }
-        watch.see(|| Step::NearLamp { position: point, distance_m: t });
-        let offer = Offer { light: &light, value: phase, transmittance, worth: value * (1.0 / mean) };
-        self.unless_occluded(point, &offer, rng, watch)
-    }
-
     /// Weights a flight of length `t` without collision: transmittance at each wavelength over the hero's.
     #[inline(always)]
     fn pass(&self, path: &mut Path, lanes: &Lanes, t: f64) {
@@ -403,100 +324,6 @@ impl<'a> PathTracer<'a> {
             watch.see(|| Step::TooLong);
         }
         may
-    }
-
-    /// Next-event estimation from a point in the fog.
-    fn lights_in_fog(
-        &self,
-        path: &Path,
-        lobe: &FogLobe<'_>,
-        flight: Option<&Flight<'_>>,
-        lanes: &Lanes,
-        rng: &mut PathRng,
-        watch: &mut impl Watch,
-    ) -> Spectrum {
-        let Some(light) = self.lights.sample(self.scene, path.origin, &lanes.basis, rng) else {
-            return Spectrum::ZERO;
-        };
-        let value = lobe.value(light.direction);
-        let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
-        let mut density = path.r_u * light.density(value.density * transmittance);
-        if let Some((flight, lamp)) = flight.zip(light.lamp) {
-            let lamps = self.scene.lamps();
-            let near = flight.segment.near(lamps.lamps()[lamp].position).pdf(flight.t) as f32;
-            density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
-        }
-        let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());
-        let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum };
-        self.unless_occluded(path.origin, &offer, rng, watch)
-    }
-
-    /// Next-event estimation from a surface.
-    fn lights_at_surface(
-        &self,
-        path: &Path,
-        s: &Surface,
-        lanes: &Lanes,
-        rng: &mut PathRng,
-        watch: &mut impl Watch,
-    ) -> Spectrum {
-        let Some(bsdf) = &s.bsdf else { return Spectrum::ZERO };
-        let Some(light) = self.lights.sample(self.scene, s.point.position, &lanes.basis, rng) else {
-            return Spectrum::ZERO;
-        };
-        let to_local = s.world_from_shading.transpose();
-        let wi = to_local * light.direction;
-        let (value, pdf) = bsdf.eval(to_local * -path.direction, wi);
-        // Shading frame and triangle must agree on the side that the light is on.
-        if pdf == 0.0 || s.normal.dot(light.direction) * wi.z <= 0.0 {
-            return Spectrum::ZERO;
-        }
-        let origin = s.point.spawn_origin(light.direction);
-        let transmittance = self.transmittance(origin, light.direction, light.distance, lanes);
-        let density = light.density(transmittance * pdf);
-        let sum = path.beta * value * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
-        let offer = Offer { light: &light, value, transmittance, worth: sum };
-        self.unless_occluded(origin, &offer, rng, watch)
-    }
-
-    /// What the offer is worth if nothing stands before the light; small worths are played for before the shadow ray is
-    /// traced.
-    #[inline]
-    fn unless_occluded(
-        &self,
-        origin: Vec3A,
-        offer: &Offer<'_>,
-        rng: &mut PathRng,
-        watch: &mut impl Watch,
-    ) -> Spectrum {
-        let (light, sum) = (offer.light, offer.worth);
-        let largest = sum.max_lane();
-        if largest <= 0.0 {
-            watch.see(|| offer.step(1.0, Visibility::Dark));
-            return Spectrum::ZERO;
-        }
-        let keep = (largest * self.lights.shadow_scale()).min(1.0);
-        if keep < 1.0 && rng.uniform() >= keep {
-            watch.see(|| offer.step(keep, Visibility::Dropped));
-            return Spectrum::ZERO;
-        }
-        let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
-        if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4), key) {
-            watch.see(|| offer.step(keep, Visibility::Blocked));
-            return Spectrum::ZERO;
-        }
-        watch.see(|| offer.step(keep, Visibility::Free));
-        sum * (1.0 / keep)
-    }
-
-    /// Transmittance of the fog along a ray at all lanes.
-    #[inline(always)]
-    fn transmittance(&self, origin: Vec3A, direction: Vec3A, distance: f32, lanes: &Lanes) -> Spectrum {
-        let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
-            return Spectrum::ONE;
-        };
-        let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
-        medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile).exp_neg()
     }
 
     /// A flight for a watch.
