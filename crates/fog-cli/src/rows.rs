@@ -134,7 +134,7 @@ pub(crate) fn print(
 /// Most rows that a tall table puts side by side.
 const MAX_TALL: usize = 6;
 
-/// As [`print`], but a table of few rows is turned: a line per column, which many columns read better in.
+/// As [`print()`], but a table of few rows is turned: a line per column, which many columns read better in.
 pub(crate) fn print_tall(
     form: Form,
     columns: &[&str],
