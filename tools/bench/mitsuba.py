@@ -6,10 +6,11 @@
     target/tools/mitsuba/bin/python tools/bench/mitsuba.py [--scenes day,night,mie] [--rounds 3]
 
 The measure is the efficiency 1 / (relative mean squared error x seconds). Both programs are unbiased, so that the error is
-variance, which the difference of two independent renderings measures without a reference: half of its square, relative to
-the square of the average of all renderings of that program plus 1 % of its mean over the image. The fifth of a percent of
-pixels that differ most is also left out in a second figure, for fireflies. The average images of both programs are compared,
-so that a wrong picture cannot win: their relative difference beyond the noise of both is printed as `apart`.
+variance, which half of the squared difference of two independent renderings measures without noise of a reference. It is
+relative to the square of a common image (--reference samples a pixel of ours) plus 1 % of that square's mean. In a second
+figure the fifth of a percent of pixels that differ most is cut off, for fireflies. `apart` is the relative squared
+difference of the two programs' expectations, from products of independent differences; it may come out below 0, and its
+root is what a wrong picture would show.
 
 Time is that of tracing alone: Mitsuba's `render` call after a first one that compiles its kernels, and ours without loading
 and without the building of tables. Both use the same number of threads. Renderings of the two alternate, because other work
@@ -106,7 +107,6 @@ def mitsuba_scene(mi, name, fog):
     transform = mi.ScalarTransform4f
 
     def texels(values):
-        # Row 0 at v = 0.
         return {"type": "bitmap", "bitmap": mi.Bitmap(np.ascontiguousarray(values)), "filter_type": "nearest",
                 "wrap_mode": "clamp", "raw": False}
 
@@ -151,12 +151,9 @@ class Mitsuba:
 
         mi.set_variant(variant)
         mi.set_log_level(mi.LogLevel.Error)
-        if variant.startswith("llvm"):
-            import drjit
+        import drjit
 
-            drjit.set_thread_count(threads)
-        else:
-            mi.Thread.thread().set_thread_count(threads) if hasattr(mi.Thread.thread(), "set_thread_count") else None
+        drjit.set_thread_count(threads)
         self.mi, self.variant = mi, variant
         self.scene = mi.load_dict(mitsuba_scene(mi, name, fog))
         self.integrator = mi.load_dict({"type": "volpath", "max_depth": 1000, "rr_depth": roulette})
@@ -188,27 +185,25 @@ def fogbank(binary, name, samples, seed, threads, folder, *more):
     return pixels, json.loads(done.stdout.strip().splitlines()[-1])["seconds"]
 
 
-def relative(square, mean):
-    """Squares of each pixel relative to the mean image."""
-    own = (mean**2).sum(-1)
+def relative(square, reference):
+    """Squares of each pixel relative to the common image."""
+    own = (reference**2).sum(-1)
     return square.sum(-1) / (own + 0.01 * own.mean())
 
 
-def errors(images):
+def errors(images, reference):
     """Relative mean squared error of one of the renderings, and without the pixels that differ most."""
     import numpy as np
 
-    mean = sum(images) / len(images)
-    pairs = [relative((a - b) ** 2 / 2, mean) for a, b in zip(images[::2], images[1::2])]
+    pairs = [relative((a - b) ** 2 / 2, reference) for a, b in zip(images[::2], images[1::2])]
     cut = [np.minimum(p, np.quantile(p, 0.998)) for p in pairs]
     return float(np.mean(pairs)), float(np.mean(cut))
 
 
-def apart(ours, theirs):
-    """Relative squared difference of the average images beyond the noise of both."""
-    mean = [sum(images) / len(images) for images in (ours, theirs)]
-    difference = float(relative((mean[0] - mean[1]) ** 2, mean[1]).mean())
-    return difference - errors(ours)[0] / len(ours) - errors(theirs)[0] / len(theirs)
+def apart(ours, theirs, reference):
+    """Relative squared difference of the expectations: its noise has mean 0, for the factors are independent."""
+    first, second = (sum(ours[k::2]) / len(ours[k::2]) - sum(theirs[k::2]) / len(theirs[k::2]) for k in (0, 1))
+    return float(relative(first * second, reference).mean())
 
 
 def fog_of(name, binary, folder):
@@ -226,16 +221,16 @@ def fog_of(name, binary, folder):
     return {"sigma_t_1_m": [s for z, s in rows if 0 < z < TOP_M], "phase": {"type": "hg", "g": 0.83}}
 
 
-def best_variant(names, name, fog, samples, roulette, threads):
+def best_variant(names, name, fog, reference, options, roulette):
     """The variant with the largest efficiency in one pair of renderings each, and all of them."""
     import gc
 
     found = {}
     for variant in names:
-        theirs = Mitsuba(variant, name, fog, roulette, threads)
-        theirs.render(samples, 90)
-        (a, s), (b, t) = theirs.render(samples, 91), theirs.render(samples, 92)
-        found[variant] = 1 / (errors([a, b])[0] * (s + t) / 2)
+        theirs = Mitsuba(variant, name, fog, roulette, options.threads)
+        theirs.render(options.mitsuba_samples, 90)
+        (a, s), (b, t) = (theirs.render(options.mitsuba_samples, seed) for seed in (91, 92))
+        found[variant] = 1 / (errors([a, b], reference)[0] * (s + t) / 2)
         print(f"  {name}: Mitsuba {variant}: efficiency {found[variant]:.3f}", flush=True)
         del theirs
         gc.collect()
@@ -246,9 +241,10 @@ def compare(name, binary, options, folder):
     fog = fog_of(name, binary, folder)
     roulette = 5 if "night" in name else 1000  # what serves Mitsuba best on each (measured)
     variants = VARIANTS if options.variants == "all" else options.variants.split(",")
+    reference, _ = fogbank(binary, name, options.reference, 7, options.threads, folder)
     variant, tried = variants[0], {}
     if len(variants) > 1:
-        variant, tried = best_variant(variants, name, fog, options.mitsuba_samples, roulette, options.threads)
+        variant, tried = best_variant(variants, name, fog, reference, options, roulette)
     theirs = Mitsuba(variant, name, fog, roulette, options.threads)
     theirs.render(options.mitsuba_samples, 1)  # compiles
     rows = []
@@ -256,7 +252,7 @@ def compare(name, binary, options, folder):
         rows.append((fogbank(binary, name, options.samples, 100 + i, options.threads, folder),
                      theirs.render(options.mitsuba_samples, 200 + i)))
     (ours, mine), (others, their) = ([[r[k][j] for r in rows] for j in (0, 1)] for k in (0, 1))
-    ours_error, mitsuba_error = errors(ours), errors(others)
+    ours_error, mitsuba_error = errors(ours, reference), errors(others, reference)
     speed = statistics.median(t / s for s, t in zip(mine, their))
     return {
         "scene": name, "variant": variant, "variants": tried,
@@ -269,7 +265,7 @@ def compare(name, binary, options, folder):
         "ratio_without_outliers": speed * mitsuba_error[1] / ours_error[1],
         "mean_ratio": [float(a / b) if b > 0 else None
                        for a, b in zip(sum(ours).mean((0, 1)), sum(others).mean((0, 1)))],
-        "apart": apart(ours, others),
+        "apart": apart(ours, others, reference),
     }
 
 
@@ -280,10 +276,11 @@ def main():
     parser.add_argument("--rounds", type=int, default=2, help="pairs of renderings of each program")
     parser.add_argument("--samples", type=int, default=32, help="ours, a pixel")
     parser.add_argument("--mitsuba-samples", type=int, default=8)
+    parser.add_argument("--reference", type=int, default=64, help="samples a pixel of the image that errors are relative to")
     parser.add_argument("--threads", type=int, default=2)
     options = parser.parse_args()
     unknown = [s for s in options.scenes.split(",") if s not in SCENES]
-    if unknown or min(options.rounds, options.samples, options.mitsuba_samples, options.threads) < 1:
+    if unknown or min(options.rounds, options.samples, options.mitsuba_samples, options.reference, options.threads) < 1:
         sys.exit(f"--scenes: of {', '.join(SCENES)}; numbers from 1 on")
     libraries = [p for v in range(30, 15, -1) for p in sorted(Path("/usr/lib").glob(f"*/libLLVM*{v}*.so*")) +
                  sorted(Path("/usr/lib").glob(f"*/libLLVM.so.{v}*"))]
