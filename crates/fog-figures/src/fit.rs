@@ -5,6 +5,7 @@ use crate::chart::{Axis, Panel, Row, Series};
 use crate::figures::{CM3, figure, steps};
 use crate::sheet::Sheet;
 use crate::{Figure, FiguresError};
+use fog_optics::advection::polynomial;
 
 /// A measured spectrum at one altitude and the curve that was fitted to it.
 #[derive(Clone, Copy, Debug)]
@@ -151,11 +152,6 @@ fn spectra(height_m: f64, profiles: &[FitProfile<'_>]) -> Figure {
 /// The series that have points.
 fn drawn(series: impl IntoIterator<Item = Series>) -> Vec<Series> {
     series.into_iter().filter(|s| !s.is_empty()).collect()
-}
-
-/// c0 + c1 x + c2 x² + …
-fn polynomial(coefficients: &[f64], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
 fn draw_parameters(parameters: &[FitParameter<'_>]) -> Figure {

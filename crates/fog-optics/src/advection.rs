@@ -130,8 +130,9 @@ impl AdvectionModel {
     }
 }
 
-/// c0 + c1 x + c2 x² + …
-fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+/// c0 + c1 x + c2 x² + …, for `coefficients` c0, c1, c2, … as a model file lists them; 0 without any.
+#[must_use]
+pub fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 

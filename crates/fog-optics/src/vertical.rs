@@ -3,7 +3,7 @@
 //! A profile is relative: its mean over altitude is 1. "Number density" of a fog is therefore the mean over its layer,
 //! and the number at a relative altitude ζ = z/H is that mean times [`VerticalProfile::at`].
 
-use crate::advection::AdvectionModel;
+use crate::advection::{AdvectionModel, polynomial};
 use crate::csv::CsvTable;
 use crate::error::{OpticsError, check_range};
 use fog_core::math::f64::pow;
@@ -146,7 +146,7 @@ impl Shape {
                 let ((z0, n0), (z1, n1)) = (rows[i - 1], rows[i]);
                 n0 + (n1 - n0) * ((zeta - z0) / (z1 - z0))
             }
-            Self::Polynomial(c) => c.iter().rev().fold(0.0, |sum, c| sum * zeta + c).max(0.0),
+            Self::Polynomial(c) => polynomial(c, zeta).max(0.0),
         }
     }
 }

@@ -113,7 +113,7 @@ fn parameter_fit(p: usize, shapes: &Shapes) -> ParameterFit {
     let coefficients = in_powers(&shapes.polynomials()[p]);
     let curve = |i: u32| {
         let zeta = f64::from(i) / 20.0;
-        [zeta, super::basis::evaluate(&coefficients, zeta), shapes.error(p, zeta)]
+        [zeta, crate::advection::polynomial(&coefficients, zeta), shapes.error(p, zeta)]
     };
     ParameterFit {
         key: SHAPE_KEYS[p],

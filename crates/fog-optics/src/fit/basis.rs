@@ -50,14 +50,10 @@ pub(super) fn change_variable(powers: &[f64], low: f64, high: f64) -> Vec<f64> {
     result
 }
 
-/// c₀ + c₁ x + c₂ x² + …
-pub(super) fn evaluate(powers: &[f64], x: f64) -> f64 {
-    powers.iter().rev().fold(0.0, |sum, c| sum * x + c)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::advection::polynomial;
     use crate::fit::linear::dot;
 
     #[test]
@@ -68,8 +64,8 @@ mod tests {
         for i in 0..=10 {
             let t = f64::from(i) / 10.0;
             let value = dot(&b, &bernstein(4, t));
-            assert!((value - evaluate(&powers, t)).abs() < 1e-12);
-            assert!((value - evaluate(&shifted, 100.0 + 160.0 * t)).abs() < 1e-10);
+            assert!((value - polynomial(&powers, t)).abs() < 1e-12);
+            assert!((value - polynomial(&shifted, 100.0 + 160.0 * t)).abs() < 1e-10);
             assert!((bernstein(4, t).iter().sum::<f64>() - 1.0).abs() < 1e-14);
         }
         assert_eq!(to_powers(&[5.0]), [5.0]);
