@@ -31,6 +31,7 @@ mod record;
 mod replay;
 mod resources;
 mod sources;
+mod surroundings;
 mod sweep;
 mod table_cache;
 mod tables;
