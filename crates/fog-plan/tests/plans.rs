@@ -265,6 +265,35 @@ fn model_files_are_kept_as_written_and_absent_ones_leave_no_trace() {
 }
 
 #[test]
+fn skies_are_resolved_and_absent_ones_leave_no_trace() {
+    let with = |lighting: &str, sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
+        let text = format!("version: 1\nname: t\nscene: none\nfog: none\nlighting: {lighting}\n");
+        fog_plan::parse(&text, "t.yaml", &sets).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let clear = with(
+        "{sky: {model: clear}, sun: {elevation_deg: -4, azimuth_deg: 9}, moon: {elevation_deg: 5, azimuth_deg: 1}}",
+        &["lighting.sky.ozone_du=350"],
+    );
+    let lighting = serde_json::to_value(&clear.frame(0).unwrap().lighting).unwrap();
+    let sky = serde_json::json!({"model": "clear", "aerosol_optical_depth": 0.1, "ozone_du": 350.0,
+        "night_luminance_cd_m2": 1.7e-4, "ground_albedo": 0.2});
+    assert_eq!(lighting["sky"], sky);
+    assert_eq!(lighting["sun"]["irradiance"], serde_json::Value::Null);
+    assert_eq!(lighting["moon"]["phase_deg"], 0.0);
+    assert!(clear.resolved_yaml().contains("aerosol_optical_depth: 0.1"), "{}", clear.resolved_yaml());
+    let cie = with("{sky: {model: cie, cie_type: 3, horizontal_illuminance_lx: 9000}}", &[]);
+    let cie = serde_json::to_value(&cie.frame(0).unwrap().lighting.sky).unwrap();
+    assert_eq!(cie["horizontal_illuminance_lx"], 9000.0);
+    assert_eq!((cie["cie_type"].as_u64(), cie.get("zenith_luminance_cd_m2")), (Some(3), None));
+    let day = serde_json::to_value(&with("day", &[]).frame(0).unwrap().lighting).unwrap();
+    let keys: Vec<&String> = day.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["preset", "environment", "sun", "scene_emitters"]);
+    let sunny = serde_json::to_value(&with("sunny", &[]).frame(0).unwrap().lighting.sun).unwrap();
+    assert!(sunny.get("color_temperature_k").is_none());
+}
+
+#[test]
 fn merge_keys_work() {
     let text = format!(
         "{BASE}sweep:\n  axes:\n    fog:\n      - &thin {{model: advection, height_m: 100}}\n      - {{<<: *thin, number_density_scale: 2}}\n"

@@ -78,5 +78,8 @@ pub fn render_frame(
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
+    if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
+        record["lighting"]["sky"]["state"] = sky.state_json().clone();
+    }
     Ok(Rendered { frame, record, camera })
 }

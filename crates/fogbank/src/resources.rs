@@ -50,7 +50,7 @@ impl Resources {
     /// fails the frames that need it ([`crate::scene`]), so that others can go on.
     pub fn prepare(&mut self, spec: &FrameSpec, progress: &dyn Progress) {
         self.prepare_fog(&spec.fog, progress);
-        self.surroundings.prepare(&spec.lighting);
+        self.surroundings.prepare(&spec.lighting, &self.observer);
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
         {

@@ -8,6 +8,7 @@ mod fog;
 mod light;
 mod or_none;
 mod phase;
+mod sky;
 mod sweep;
 
 use schemars::JsonSchema;
@@ -21,6 +22,9 @@ pub(crate) use light::{
 };
 pub(crate) use or_none::OrNone;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use sky::{
+    AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
+};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
 use or_none::Example;

@@ -3,6 +3,7 @@
 mod droplets;
 mod fog;
 mod lighting;
+mod sky;
 mod view;
 
 use serde::Serialize;
