@@ -1,6 +1,6 @@
 //! Choosing a light for next-event estimation.
 //!
-//! The sky is among them where it has structure. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
+//! A sky is among them where its light is concentrated. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
 //! direction from the phase function or the BSDF, and that is what continuing the path does.
 
 use crate::path::Lanes;
@@ -17,6 +17,10 @@ const FULL_SHARE_M2: f32 = 100.0;
 /// Share of connections to emitters of any size. Whole façades are run into anyway: in the quickstart's nights a share of
 /// 0.1 instead of 1 takes 22 % less time at 2 % more noise.
 const LEAST_SHARE: f32 = 0.1;
+/// Evenness of a sky ([`fog_scene::sky_map::SkyMap::evenness`]) from which on it is not aimed at, as the uniform environment
+/// is not. Skies of clear air and overcast ones are more even than that: in the street under them, aiming at them with a share
+/// of 0.3 takes 1.2 to 1.6 times as long, in fog and in clear air, and is no less noisy.
+const EVEN_SKY: f32 = 0.2;
 /// Distance at which the strongest lamp says what light of lamps is faint, in metres.
 const LAMP_LEVEL_M: f32 = 100.0;
 
@@ -55,7 +59,8 @@ impl LightSample {
 
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let (sun, sky, emitters) = (scene.sun.is_some(), scene.sky.is_some(), !scene.emitters().is_empty());
+        let uneven = scene.sky.as_ref().map_or(0.0, |sky| (1.0 - sky.evenness() / EVEN_SKY).max(0.0));
+        let (sun, sky, emitters) = (scene.sun.is_some(), uneven > 0.0, !scene.emitters().is_empty());
         let (lamps, beams) = (!scene.lamps().lamps().is_empty(), !scene.beams().is_empty());
         let kinds = [sun, sky, emitters, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
         let share = 1.0 / kinds.iter().sum::<f32>().max(1.0);
@@ -71,7 +76,7 @@ impl LightMix {
             sun_level.max(sky_level).max(if emitters { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
-            sky: if sky { share } else { 0.0 },
+            sky: share * uneven,
             emitters: if emitters { share * small } else { 0.0 },
             lamps: if lamps { share } else { 0.0 },
             beams: if beams { share } else { 0.0 },
