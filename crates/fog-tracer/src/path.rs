@@ -22,6 +22,7 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
+use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
@@ -151,7 +152,7 @@ impl<'a> PathTracer<'a> {
             let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
-                    let sum = self.escape(&path);
+                    let sum = self.escape(&path, watch);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
                     false
@@ -161,6 +162,7 @@ impl<'a> PathTracer<'a> {
                     let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
                     let sum = self.emitted(&path, &hit, &surface);
                     watch.see(|| Step::surface(&hit, &surface, sum));
+                    watch.light(LightSource::Emitter(hit.triangle), sum);
                     out.radiance += sum;
                     self.may_scatter(&path, watch) && {
                         out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
@@ -292,14 +294,17 @@ impl<'a> PathTracer<'a> {
 
     /// Light of the environment and the sun's disc that a path which leaves the scene meets.
     #[inline(always)]
-    fn escape(&self, path: &Path) -> Spectrum {
+    fn escape(&self, path: &Path, watch: &mut impl Watch) -> Spectrum {
         let mut sum = Spectrum::ZERO;
         if let Some(environment) = &self.scene.environment {
             sum += path.beta * (environment.radiance / path.r_u.mean());
+            watch.light(LightSource::Environment, sum);
         }
         if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
-            sum += path.beta * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+            let light = path.beta * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+            watch.light(LightSource::Sun, light);
+            sum += light;
         }
         sum
     }

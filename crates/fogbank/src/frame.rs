@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::fog::Fog;
-use crate::lighting::lights;
+use crate::lighting::{light_groups, lights};
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
@@ -52,8 +52,11 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
     let fog = Fog::new(&spec.fog, resources)?;
     let (environment, sun) = lights(&spec.lighting);
     let medium = fog.as_ref().map(|f| f.medium.clone());
-    let scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
+    let mut scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
         .with_luminance_of_one(spec.lighting.luminance_of_one_cd_m2);
+    if let Some(groups) = light_groups(&spec.lighting) {
+        scene = scene.with_light_groups(groups);
+    }
     Ok((scene, fog))
 }
 
