@@ -5,7 +5,7 @@ use crate::gltf_load::LoadedScene;
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightSource {
-    /// The environment.
+    /// The environment, uniform or an image.
     Environment,
     /// The sun.
     Sun,

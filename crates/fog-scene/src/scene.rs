@@ -10,6 +10,7 @@ use crate::light::{Environment, Sun};
 use crate::light_groups::{Grouping, LightGroups, LightSource};
 use crate::material::AlphaMode;
 use crate::medium::Medium;
+use crate::sky_map::SkyMap;
 use crate::triangle::SurfacePoint;
 use fog_core::colour::{Rgb, upsample};
 use fog_core::spectrum::Spectrum;
@@ -25,6 +26,8 @@ pub struct Scene {
     pub medium: Option<Medium>,
     /// Uniform environment, if any.
     pub environment: Option<Environment>,
+    /// Surroundings with structure, if any; they shine beside the uniform ones.
+    pub sky: Option<SkyMap>,
     /// Sun, if any.
     pub sun: Option<Sun>,
     emitters: Emitters,
@@ -76,6 +79,7 @@ impl Scene {
             loaded,
             medium,
             environment,
+            sky: None,
             sun,
             emitters,
             lamps: LampTree::default(),
@@ -91,8 +95,15 @@ impl Scene {
         scene
     }
 
+    /// The same scene under this sky.
+    #[must_use]
+    pub fn with_sky(mut self, sky: Option<SkyMap>) -> Self {
+        self.sky = sky;
+        self
+    }
+
     /// The same scene where the relative radiance 1 stands for a luminance of `cd_m2`, above 0: what the scene file gives in
-    /// cd/m², cd and lx is divided by it. Environment and sun are relative already.
+    /// cd/m², cd and lx is divided by it. Environment, sky and sun are relative already.
     #[must_use]
     pub fn with_luminance_of_one(mut self, cd_m2: f64) -> Self {
         self.of_one_nit = (1.0 / cd_m2) as f32;
@@ -110,6 +121,8 @@ impl Scene {
         if let Some(environment) = &mut self.environment {
             environment.radiance *= intensity(grouping.environment);
         }
+        let factor = intensity(grouping.environment);
+        self.sky = self.sky.filter(|_| factor > 0.0).map(|sky| sky.scaled(f64::from(factor)));
         if let Some(sun) = &mut self.sun {
             sun.irradiance *= intensity(grouping.sun);
         }
@@ -152,7 +165,11 @@ impl Scene {
     pub fn light_counts(&self) -> Vec<usize> {
         let Some(grouping) = &self.grouping else { return Vec::new() };
         let mut counts = vec![0; grouping.groups.names().len()];
-        let single = [self.environment.map(|_| LightSource::Environment), self.sun.map(|_| LightSource::Sun)];
+        let single = [
+            self.environment.map(|_| LightSource::Environment),
+            self.sky.as_ref().map(|_| LightSource::Environment),
+            self.sun.map(|_| LightSource::Sun),
+        ];
         let emitters = self.emitters.triangles().map(LightSource::Emitter);
         let lamps = (0..self.lamp_groups.len()).map(LightSource::Lamp);
         let beams = (0..self.beam_groups.len()).map(LightSource::Beam);
