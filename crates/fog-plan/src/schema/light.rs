@@ -18,7 +18,7 @@ pub(crate) enum LightingFile {
     /// A preset by name.
     Preset(Preset),
     /// Light sources one by one.
-    Map(LightingMap),
+    Map(Box<LightingMap>),
 }
 
 impl Default for LightingFile {
@@ -189,6 +189,6 @@ impl<'de> Visitor<'de> for LightingVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<LightingFile, A::Error> {
-        LightingMap::deserialize(MapAccessDeserializer::new(map)).map(LightingFile::Map)
+        LightingMap::deserialize(MapAccessDeserializer::new(map)).map(|map| LightingFile::Map(Box::new(map)))
     }
 }

@@ -20,7 +20,7 @@ impl Check<'_> {
             LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
             LightingFile::Map(map) => map,
         };
-        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2, groups } = map;
+        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2, groups } = &**map;
         let environment =
             environment.as_ref().map_or(Some(None), |e| self.environment(e, rendered_nm).map(Some));
         let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, rendered_nm).map(Some));
