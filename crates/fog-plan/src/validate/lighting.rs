@@ -21,7 +21,8 @@ impl Check<'_> {
             LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
             LightingFile::Map(map) => map,
         };
-        let LightingMap { environment, sky, sun, moon, scene_emitters, luminance_of_one_cd_m2 } = map;
+        let LightingMap { environment, sky, sun, moon, scene_emitters, luminance_of_one_cd_m2, groups } =
+            &**map;
         if sky.is_some() && environment.is_some() {
             self.problem("lighting.environment", "not with lighting.sky, which surrounds the scene too");
         }
@@ -34,6 +35,7 @@ impl Check<'_> {
         let moon = moon.as_ref().map_or(Some(None), |moon| self.moon(moon, clear).map(Some));
         let path = "lighting.luminance_of_one_cd_m2";
         let luminance = self.optional(path, *luminance_of_one_cd_m2, ranges::LUMINANCE_CD_M2);
+        let groups = self.light_groups(groups);
         Some(LightingSpec {
             preset: None,
             environment: environment?,
@@ -42,6 +44,7 @@ impl Check<'_> {
             moon: moon?,
             scene_emitters: *scene_emitters,
             luminance_of_one_cd_m2: luminance?.unwrap_or(LUMINANCE_OF_ONE_CD_M2),
+            groups: groups?,
         })
     }
 
@@ -169,6 +172,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             moon: None,
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
         Preset::Night => LightingSpec {
             preset: Some("night"),
@@ -178,6 +182,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             moon: None,
             scene_emitters: true,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
         Preset::Sunny => LightingSpec {
             preset: Some("sunny"),
@@ -194,6 +199,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             moon: None,
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
     }
 }
