@@ -14,7 +14,7 @@ use fog_tracer::render_shared::{Variant, render_shared};
 use fog_tracer::settings::{Settings, Stop};
 use std::sync::Arc;
 
-const SETTINGS: Settings = Settings { samples: 24, stop: None, max_depth: None, wavelength_nm: None };
+const SETTINGS: Settings = Settings { samples: 48, stop: None, max_depth: None, wavelength_nm: None };
 
 fn shared(scene: &Scene, media: &[Medium], variants: &[Variant], settings: &Settings) -> Vec<Frame> {
     let camera = scenes::camera(1.7, 0.0, 4.0, 32, 18, 60.0);
