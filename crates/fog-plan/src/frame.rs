@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use crate::droplets::{DropletsSpec, VerticalSpec};
+use crate::{
+    droplets::{DropletsSpec, VerticalSpec},
+    patchiness::PatchinessSpec,
+};
 
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -74,6 +77,9 @@ pub struct FogSpec {
     pub sampling: Sampling,
     /// Scales extinction so that the layer has this visibility.
     pub visibility: Option<Visibility>,
+    /// Random billows; absent, and then not written: the layer is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub patchiness: Option<PatchinessSpec>,
     /// World height (y) of altitude 0, in metres; −500 to 9000.
     pub datum_m: f64,
 }

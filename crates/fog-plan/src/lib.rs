@@ -22,6 +22,7 @@ mod identity;
 mod load;
 mod node;
 mod origin;
+mod patchiness;
 mod plan;
 mod ranges;
 mod read;
@@ -40,5 +41,6 @@ pub use frame::{
 };
 pub use load::{load, parse};
 pub use origin::Origin;
+pub use patchiness::PatchinessSpec;
 pub use plan::{AxisSummary, Plan};
 pub use schema::schema_json;

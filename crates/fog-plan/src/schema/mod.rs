@@ -7,6 +7,7 @@ mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod patchiness;
 mod phase;
 mod sweep;
 
@@ -20,6 +21,7 @@ pub(crate) use light::{
     EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile,
 };
 pub(crate) use or_none::OrNone;
+pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 

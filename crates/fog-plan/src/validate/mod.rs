@@ -3,6 +3,7 @@
 mod droplets;
 mod fog;
 mod lighting;
+mod patchiness;
 mod view;
 
 use serde::Serialize;
