@@ -7,6 +7,7 @@ mod lamps;
 mod materials;
 mod materials_rendered;
 mod noise;
+mod patchy;
 mod phases;
 mod radiances;
 mod replay;

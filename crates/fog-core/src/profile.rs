@@ -341,8 +341,14 @@ impl ExtinctionProfile {
     /// [`ExtinctionProfile::optical_depth`] of each product.
     #[inline]
     pub(crate) fn product_depths(&self, y0: f64, dy: f64, t_max: f64) -> ProductDepths {
-        self.clip(y0, dy, t_max)
-            .map_or(ProductDepths::ZERO, |span| ProductDepths(self.depth_products(y0, dy, span)))
+        let (base, top, y1) = (self.base_y(), self.top_y(), rise(y0, dy, t_max));
+        if (y0 >= top && y1 >= top) || (y0 <= base && y1 <= base) {
+            return ProductDepths::ZERO;
+        }
+        let inside = y0.min(y1) >= base && y0.max(y1) <= top;
+        let whole = Some(Span { enter: 0.0, exit: t_max });
+        let span = if inside { whole } else { self.clip(y0, dy, t_max) };
+        span.map_or(ProductDepths::ZERO, |span| ProductDepths(self.depth_products(y0, dy, span)))
     }
 
     /// Depth at the hero (lane 0).
