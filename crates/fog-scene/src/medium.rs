@@ -32,6 +32,13 @@ impl Medium {
         Ok(self)
     }
 
+    /// True if frames in this fog and others can share paths: its densities can be told at any point, without drawing,
+    /// and by altitude alone.
+    #[must_use]
+    pub fn can_share(&self) -> bool {
+        self.patches.is_none() && self.phase.has_rows()
+    }
+
     /// Extinction and albedo by altitude: of the even layer, where the fog is patchy.
     #[must_use]
     pub fn profile(&self) -> &ExtinctionProfile {
