@@ -609,26 +609,26 @@ fn patchiness() {
         errors(&format!("fog: {{model: homogeneous, height_m: 50, sigma_t_1_m: 0.1, patchiness: {keys}}}\n"))
     };
     for (keys, message) in [
-        ("{density_sd: 3, length_m: 100}", "85: fog.patchiness.density_sd: 3 is out of range; valid: 0 to 2"),
+        ("{density_sd: 3, length_m: 100}", "84: fog.patchiness.density_sd: 3 is out of range; valid: 0 to 2"),
         (
             "{density_sd: 1}",
-            "72: fog.patchiness.length_m: missing; the distance between the largest patches, 1 to 100000 m",
+            "71: fog.patchiness.length_m: missing; the distance between the largest patches, 1 to 100000 m",
         ),
         (
             "{density_sd: 1, length_m: 0.5}",
-            "98: fog.patchiness.length_m: 0.5 m is out of range; valid: 1 to 100000 m",
+            "97: fog.patchiness.length_m: 0.5 m is out of range; valid: 1 to 100000 m",
         ),
         (
             "{length_m: 100}",
-            "72: fog.patchiness: density_sd and top_sd_m are both 0; give one of them, or `none` for even fog",
+            "71: fog.patchiness: density_sd and top_sd_m are both 0; give one of them, or `none` for even fog",
         ),
         (
             "{density_sd: 1, length_m: 20, octaves: 6}",
-            "111: fog.patchiness.octaves: 6 octaves below 20 m reach down to 0.312 m; valid: 0.5 m and more",
+            "110: fog.patchiness.octaves: 6 octaves below 20 m reach down to 0.312 m; valid: 0.5 m and more",
         ),
         (
             "{density_sd: 1, length_m: 20, octaves: 9}",
-            "111: fog.patchiness.octaves: 9 is out of range; valid: 1 to 8",
+            "110: fog.patchiness.octaves: 9 is out of range; valid: 1 to 8",
         ),
     ] {
         assert_eq!(fog(keys), [format!("configs/x.yaml:6:{message}")], "{keys}");
