@@ -14,5 +14,6 @@ mod radiances;
 mod reciprocity;
 mod replay;
 mod samplers;
+mod sky;
 mod street;
 mod truth;
