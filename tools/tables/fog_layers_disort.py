@@ -1,6 +1,6 @@
 """Writes tests/data/fog_layers_{thin,thick}.csv: radiances and fluxes of the advection fog, by discrete ordinates.
 
-    pip install PythonicDISORT==1.8 scatrs==0.3.0 pyyaml && python tools/tables/fog_layers_disort.py      (about 20 minutes)
+    pip install PythonicDISORT==1.8 scatrs==0.3.0 pyyaml && python tools/tables/fog_layers_disort.py      (minutes)
 
 Nothing of Fogbank's code is used: droplets from the formulae of tables/advection/arcata.yaml, water from
 tables/water/hale_querry_1973.csv, the Mie series by scatrs, the transfer of light by PythonicDISORT (Ho & Pincus 2024), which
@@ -19,6 +19,7 @@ irradiance across its centre's direction (a beam in deep fog of droplets takes a
 
 import csv
 import json
+import re
 import sys
 import warnings
 from pathlib import Path
@@ -50,7 +51,8 @@ class Fog:
 
     def __init__(self, wavelength_nm):
         text = (ROOT / "tables/advection/arcata.yaml").read_text()
-        self.model = yaml.safe_load(text.replace("e7", "e+7").replace("e6", "e+6").replace("e9", "e+9").replace("e5", "e+5"))
+        # PyYAML takes 1e7 for a number only with a sign in it.
+        self.model = yaml.safe_load(re.sub(r"(\d)e(\d)", r"\1e+\2", text))
         with open(ROOT / "tables/water/hale_querry_1973.csv") as file:
             water = {float(r["wavelength_nm"]): complex(float(r["n"]), float(r["k"])) for r in csv.DictReader(file)}
         low, high = self.model["diameter_range_um"]
@@ -111,20 +113,37 @@ def directions(zenith_deg):
     return out
 
 
-def single_scattering(slabs, streams, cos_sun, mu, azimuth):
-    """Light scattered once in slabs whose phase functions are truncated by delta-M, at the top (mu > 0) or the bottom."""
-    depths, albedo, moments = slabs
-    peak = moments[:, streams]
-    kept = 1 - albedo * peak
-    edges = np.concatenate([[0.0], np.cumsum(kept * np.diff(depths, prepend=0.0))])
-    strength = albedo * (1 - peak) / kept
-    truncated = (moments[:, :streams] - peak[:, None]) / (1 - peak)[:, None] * (2 * np.arange(streams) + 1)
+def first_order(edges, strength, series, cos_sun, mu, azimuth):
+    """Light scattered once, at the top (mu > 0) or the bottom: closed form of slabs between optical depths `edges`.
+
+    `strength` is each slab's albedo, `series` its phase function's Legendre coefficients times 2 l + 1.
+    """
     cos = -mu * cos_sun + np.sqrt((1 - mu**2) * (1 - cos_sun**2)) * np.cos(azimuth)
-    phase = np.polynomial.legendre.legval(cos, truncated.T) / (4 * np.pi)
+    phase = np.polynomial.legendre.legval(cos, series.T) / (4 * np.pi)
     # What leaves from depth t is damped by t / cos_sun on its way in, and by its way out.
     rate = 1 / cos_sun + 1 / mu
     damping = np.exp(-edges * rate) if mu > 0 else np.exp(edges[-1] / mu - edges * rate)
     return float(strength * phase @ (damping[:-1] - damping[1:]) / (rate * abs(mu)))
+
+
+def scattered_once(slabs, tau_scale, zenith_deg):
+    """Single scattering alone, in the directions of the table's radiances."""
+    tau, albedo, moments = slabs
+    edges = np.concatenate([[0.0], np.cumsum(tau * tau_scale)])
+    series = moments * (2 * np.arange(moments.shape[1]) + 1)
+    cos_sun = np.cos(np.radians(zenith_deg))
+    return [first_order(edges, albedo, series, cos_sun, mu, np.radians(azimuth))
+            for _, mu, azimuth in directions(zenith_deg)]
+
+
+def scattered_once_scaled(slabs, streams, cos_sun, mu, azimuth):
+    """The same of slabs (with optical depths from the top) as delta-M scales them, with truncated phase functions."""
+    depths, albedo, moments = slabs
+    peak = moments[:, streams]
+    kept = 1 - albedo * peak
+    edges = np.concatenate([[0.0], np.cumsum(kept * np.diff(depths, prepend=0.0))])
+    truncated = (moments[:, :streams] - peak[:, None]) / (1 - peak)[:, None] * (2 * np.arange(streams) + 1)
+    return first_order(edges, albedo * (1 - peak) / kept, truncated, cos_sun, mu, azimuth)
 
 
 def solve(slabs, tau_scale, zenith_deg, ground_albedo, streams):
@@ -142,7 +161,7 @@ def solve(slabs, tau_scale, zenith_deg, ground_albedo, streams):
             at, azimuth = (0.0 if level == "top" else depths[-1]), np.radians(azimuth_deg)
 
             def once(mu):
-                return single_scattering((depths, albedo, moments), streams, cos_sun, mu, azimuth)
+                return scattered_once_scaled((depths, albedo, moments), streams, cos_sun, mu, azimuth)
 
             # Single scattering is too uneven for interpolation between the streams' directions; what is left is smooth.
             side = nodes[nodes * mu > 0]
