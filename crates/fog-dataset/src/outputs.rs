@@ -28,11 +28,13 @@ pub struct OutputSet {
     pub standard_error: bool,
     /// Number of samples.
     pub samples: bool,
+    /// Estimate of the radiance without its noise.
+    pub denoised: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 11] = [
         "image",
         "hdr",
         "depth",
@@ -43,6 +45,7 @@ impl OutputSet {
         "airlight",
         "standard_error",
         "samples",
+        "denoised",
     ];
 
     /// Every output.
@@ -100,6 +103,7 @@ impl OutputSet {
             "airlight" => &mut self.airlight,
             "standard_error" => &mut self.standard_error,
             "samples" => &mut self.samples,
+            "denoised" => &mut self.denoised,
             _ => return None,
         })
     }

@@ -342,6 +342,8 @@ pub enum Output {
     StandardError,
     /// Number of samples of each pixel.
     Samples,
+    /// An estimate of `Hdr`, which is then there too, without its noise.
+    Denoised,
 }
 
 /// For values that records leave out where they are 1.

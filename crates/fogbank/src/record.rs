@@ -1,6 +1,7 @@
 //! The metadata of a frame: everything that it depends on, and what its camera and fog were, with units in the keys.
 
 use crate::CODE_DIGEST;
+use crate::denoise;
 use crate::fog::Fog;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
@@ -59,6 +60,9 @@ pub(crate) fn record(
             "luminance_of_one_cd_m2": spec.lighting.luminance_of_one_cd_m2,
             "units": "cd, lx and cd/m² of the scene file, divided by the luminance that the radiance 1 stands for",
         });
+    }
+    if denoise::is_wanted(spec) {
+        value["denoised"] = denoise::record_json(&spec.id);
     }
     value["noise"] = noise_json(spec, frame);
     value["config_digest"] = json!(config_digest);
