@@ -5,6 +5,7 @@ use crate::droplets::Spectrum;
 use crate::error::Error;
 use crate::progress::{Event, Progress};
 use crate::sources::{DropletSource, Sources};
+use crate::surroundings::Surroundings;
 use crate::table_cache::TableCache;
 use crate::tables::Tables;
 use crate::text_files::TextFiles;
@@ -27,6 +28,7 @@ pub struct Resources {
     /// Colour matching and upsampling.
     pub observer: Observer,
     sources: Sources,
+    surroundings: Surroundings,
     tables: Tables,
     scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
     empty: Arc<LoadedScene>,
@@ -41,6 +43,7 @@ impl Resources {
         Self {
             observer: Observer::new(),
             sources: Sources::default(),
+            surroundings: Surroundings::default(),
             tables: Tables::new(cache),
             scenes: HashMap::new(),
             empty: Arc::new(LoadedScene::default()),
@@ -68,6 +71,7 @@ impl Resources {
             }
             self.denoiser = Some(denoiser);
         }
+        self.surroundings.prepare(&spec.lighting);
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
         {
@@ -134,6 +138,11 @@ impl Resources {
     /// Why it could not be had.
     pub fn model(&self, fog: &FogSpec) -> Result<&AdvectionModel, Error> {
         self.sources.model(fog)
+    }
+
+    /// Images and skies around scenes.
+    pub(crate) fn surroundings(&self) -> &Surroundings {
+        &self.surroundings
     }
 
     /// Text files that fogs are read from.

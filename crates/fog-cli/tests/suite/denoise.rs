@@ -13,7 +13,11 @@ fn sweep(dir: &Path, out: &str, more: &[&str]) -> crate::common::Run {
     let args = [&["sweep", "c.yaml", "--out", out, "--cache-dir", &cache], more].concat();
     let output = command(&args, dir).env_remove("FOGBANK_OIDN").output().expect("the program starts");
     let text = |bytes| String::from_utf8(bytes).expect("messages are UTF-8");
-    crate::common::Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    crate::common::Run {
+        code: output.status.code(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
 }
 
 #[test]
@@ -40,7 +44,8 @@ fn the_picture_that_it_was_guessed_from_is_kept() {
     let dir = folder("outputs: [denoised, image]\nfog: none\n");
     let refused = run(&["plan", "c.yaml"], dir.path());
     assert_eq!(refused.code, Some(2));
-    let message = "outputs.0: denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
+    let message =
+        "outputs.0: denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
     assert!(refused.stderr.contains(message), "{}", refused.stderr);
 }
 

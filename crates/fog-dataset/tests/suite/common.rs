@@ -91,7 +91,7 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
         ("world_from_camera".to_owned(), Attribute::Matrix(std::array::from_fn(|i| i as f32))),
     ]
     .into();
-    let rgb = (0..frame.pixel_count()).map(|i| frame.image(i).map(|v| 0.5 * v)).collect();
+    let rgb = frame.direct.iter().map(|rgb| rgb.map(|v| 0.5 * v)).collect();
     let denoised = DenoisedPicture { rgb, details: json!({ "library": "half" }) };
     set.write_frame(&FrameFiles {
         id,
