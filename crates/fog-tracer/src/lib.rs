@@ -6,6 +6,7 @@
 mod analog;
 mod equiangular;
 pub mod features;
+mod groups;
 mod lights;
 mod lobe;
 pub mod path;

@@ -61,6 +61,10 @@ pub(crate) fn record(
             "units": "cd, lx and cd/m² of the scene file, divided by the luminance that the radiance 1 stands for",
         });
     }
+    if let Some(groups) = scene.light_groups() {
+        let counts = groups.names().map(str::to_owned).zip(scene.light_counts().into_iter().map(Value::from));
+        value["lighting"]["lights_in_group"] = counts.collect::<serde_json::Map<_, _>>().into();
+    }
     if denoise::is_wanted(spec) {
         value["denoised"] = denoise::record_json(&spec.id);
     }
