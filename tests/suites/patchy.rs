@@ -92,7 +92,7 @@ fn white_patches_are_invisible() {
     {
         let environment = Some(Environment { radiance: 1.0 });
         let scene = Scene::new(scenes::empty(), Some(patchy(fog, 1.0, 6.0, 2)), environment, None, false);
-        assert_white(name, &scene, 30.0, 0.0, 32);
+        assert_white(name, &scene, 30.0, 0.0, 256);
     }
 }
 
