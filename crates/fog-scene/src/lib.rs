@@ -3,7 +3,6 @@
 mod attributes;
 mod bvh;
 mod error;
-pub mod generate;
 mod geometry;
 mod gltf_load;
 mod material;
