@@ -8,6 +8,7 @@ mod classes;
 mod error;
 mod font;
 mod glb;
+mod highway;
 mod lamp;
 mod mesh;
 mod noise;
@@ -24,6 +25,7 @@ mod urban;
 
 pub use classes::CLASSES;
 pub use error::WorldError;
+pub use highway::Highway;
 pub use runway::{ApproachLights, Runway};
 pub use signs::Style;
 pub use targets::Targets;
@@ -40,6 +42,8 @@ pub enum World {
     Runway(Runway),
     /// A street in a town.
     Urban(Urban),
+    /// A motorway.
+    Highway(Highway),
 }
 
 impl World {
@@ -53,6 +57,7 @@ impl World {
             Self::Targets(options) => targets::targets(options),
             Self::Runway(options) => runway::runway(options, seed),
             Self::Urban(options) => urban::urban(options, seed),
+            Self::Highway(options) => highway::highway(options, seed),
         }
     }
 }

@@ -237,8 +237,8 @@ fn front_and_rear(model: &mut Model, body: &Body, finish: &Finish) -> (Vec3, [Ve
     let s = body.length - 0.1;
     let corner = body.on_side(s, 4.3);
     let lamp_rear = Vec3::new(corner.x - 0.08, corner.y - 0.03, s - half);
-    let red = ball(Vec3::ZERO, Vec3::new(0.17, 0.085, 0.13), 20)
-        .placed(shift(lamp_rear.x, lamp_rear.y, lamp_rear.z + 0.02) * crate::place::turn_y(20.0));
+    let red = ball(Vec3::ZERO, Vec3::new(0.15, 0.085, 0.095), 20)
+        .placed(shift(lamp_rear.x + 0.01, lamp_rear.y, lamp_rear.z + 0.03) * crate::place::turn_y(20.0));
     model.add(finish.tail, &red.mirrored());
     let bumper = 0.5 * (body.sill + tail) - 0.12;
     let valance = rounded_box(
