@@ -72,8 +72,6 @@ pub(crate) mod colour {
     pub(crate) const YELLOW: [f32; 3] = scaled([1.0, 0.48, 0.0]);
     /// Blue of taxiway edges.
     pub(crate) const BLUE: [f32; 3] = scaled([0.02, 0.08, 1.0]);
-    /// High-pressure sodium at 2000 K: chromaticity (0.53, 0.41).
-    pub(crate) const SODIUM: [f32; 3] = scaled([1.0, 0.42, 0.06]);
 
     const fn scaled([r, g, b]: [f32; 3]) -> [f32; 3] {
         let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;

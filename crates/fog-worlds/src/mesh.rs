@@ -82,12 +82,6 @@ impl Mesh {
         both.add(&self);
         both
     }
-
-    /// Least and greatest coordinates.
-    pub(crate) fn bounds(&self) -> [Vec3; 2] {
-        let all = |f: fn(Vec3, Vec3) -> Vec3| self.positions.iter().copied().reduce(f).unwrap_or_default();
-        [all(Vec3::min), all(Vec3::max)]
-    }
 }
 
 /// Unit normal of a closed loop of points (Newell's sum).
@@ -128,11 +122,5 @@ impl Model {
         for (material, mesh) in &other.parts {
             self.add(*material, &mesh.clone().placed(frame));
         }
-    }
-
-    /// Least and greatest coordinates.
-    pub(crate) fn bounds(&self) -> [Vec3; 2] {
-        let each = self.parts.iter().filter(|p| !p.1.positions.is_empty()).map(|p| p.1.bounds());
-        each.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
     }
 }

@@ -45,9 +45,9 @@ const SQUARES: [usize; 2] = [9, 6];
 const SQUARE_BY_DISTANCE: f32 = 1.0 / 60.0;
 const MARKER_BY_DISTANCE: f32 = 1.0 / 20.0;
 /// Distance of the markers' middles from the board's, by distance.
-const MARKER_ASIDE: f32 = 0.115;
+const MARKER_ASIDE: f32 = 0.13;
 /// Bearings between boards and between black targets, in degrees.
-const BOARD_STEP_DEG: f32 = 17.0;
+const BOARD_STEP_DEG: f32 = 19.5;
 const BLACK_STEP_DEG: f32 = 6.0;
 /// Half the edge of the ground in metres, beyond the farthest target.
 const REACH: f32 = 2000.0;

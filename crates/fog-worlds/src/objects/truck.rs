@@ -49,13 +49,9 @@ fn mirrors(model: &mut Model, finish: &Finish, x: f32, y: f32, z: f32) {
     model.add(finish.skin.trim, &arm.mirrored());
 }
 
-/// A truck with a closed box behind its cab.
-pub(crate) fn truck(glb: &mut Glb, colour_index: usize, lit: bool) -> Vehicle {
-    let finish = finish(glb, colour_index, lit);
-    let cargo = glb.material(&Paint::new("truck box", [0.66, 0.66, 0.64]).smooth(0.5));
-    let (w, half) = (0.5 * WIDTH, 0.5 * LENGTH);
-    let front = -half;
-    let mut model = Model::default();
+/// The cab of a truck whose front is at z = `front`.
+fn cab(model: &mut Model, finish: &Finish, front: f32) {
+    let w = 0.5 * WIDTH;
     // Cab: lower body, upper body a little narrower, roof.
     let cab_back = front + CAB;
     model.add(
@@ -75,7 +71,7 @@ pub(crate) fn truck(glb: &mut Glb, colour_index: usize, lit: bool) -> Vehicle {
         4,
     );
     model.add(finish.skin.glass, &screen);
-    side_pane(&mut model, &finish, w - 0.1, [front + 0.35, front + 1.25], [1.65, 2.4]);
+    side_pane(model, finish, w - 0.1, [front + 0.35, front + 1.25], [1.65, 2.4]);
     // Grille, bumper, steps.
     model.add(
         finish.skin.trim,
@@ -95,9 +91,19 @@ pub(crate) fn truck(glb: &mut Glb, colour_index: usize, lit: bool) -> Vehicle {
             3,
         ),
     );
-    mirrors(&mut model, &finish, w - 0.1, 2.15, front + 0.22);
+    mirrors(model, finish, w - 0.1, 2.15, front + 0.22);
+}
+
+/// A truck with a closed box behind its cab.
+pub(crate) fn truck(glb: &mut Glb, colour_index: usize, lit: bool) -> Vehicle {
+    let finish = finish(glb, colour_index, lit);
+    let cargo = glb.material(&Paint::new("truck box", [0.66, 0.66, 0.64]).smooth(0.5));
+    let (w, half) = (0.5 * WIDTH, 0.5 * LENGTH);
+    let front = -half;
+    let mut model = Model::default();
+    cab(&mut model, &finish, front);
     // Box, frame, guards.
-    let box_front = cab_back + 0.2;
+    let box_front = front + CAB + 0.2;
     model.add(
         cargo,
         &rounded_box(Vec3::new(-w, 1.05, box_front), Vec3::new(w, BOX_TOP, half - 0.02), 0.03, 2),

@@ -1,7 +1,7 @@
 //! Wheels of cars and trucks.
 
 use crate::mesh::{Mat, Model};
-use crate::place::{shift, stretch, turn_x, turn_z};
+use crate::place::{shift, stretch, turn_y, turn_z};
 use crate::shapes::{block, lathe};
 use fog_core::Vec3;
 use glam::Affine3A;
@@ -45,11 +45,6 @@ pub(crate) fn wheel(model: &mut Model, skin: WheelSkin, middle: Vec3, radius: f3
     let spoke =
         block(Vec3::new(-0.11 * rim, 0.52 * h, 0.1 * rim), Vec3::new(0.11 * rim, 0.82 * h, 0.9 * rim));
     for k in 0..5 {
-        model.add(skin.rim, &spoke.clone().placed(frame * crate::place::turn_y(72.0 * k as f32)));
+        model.add(skin.rim, &spoke.clone().placed(frame * turn_y(72.0 * k as f32)));
     }
-}
-
-/// Frame that turns a body made along +Y so that it looks along −Z.
-pub(crate) fn forward(at: Vec3) -> Affine3A {
-    shift(at.x, at.y, at.z) * turn_x(-90.0)
 }

@@ -12,8 +12,8 @@ use crate::objects::person;
 const GAPS: [f32; 2] = [70.0, 9.0];
 /// Clear space before and behind the camera in its lane.
 const CAMERA: [f32; 2] = [-11.0, 5.0];
-/// Shares of vans, trucks and buses among vehicles that drive.
-const TRUCKS: f32 = 0.14;
+/// Shares of trucks and buses among vehicles that drive.
+const TRUCKS: f32 = 0.2;
 const BUSES: f32 = 0.06;
 /// Pedestrians per metre of a full pavement.
 const PEOPLE_PER_M: f32 = 0.16;
