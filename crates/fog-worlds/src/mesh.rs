@@ -28,8 +28,11 @@ impl Mesh {
         for &(position, uv) in corners {
             self.vertex(position, normal, uv);
         }
-        for i in 2..corners.len() as u32 {
-            self.indices.extend([first, first + i - 1, first + i]);
+        for i in 2..corners.len() {
+            let [a, b, c] = [0, i - 1, i].map(|k| corners[k].0);
+            if has_area(a, b, c) {
+                self.indices.extend([0, i - 1, i].map(|k| first + k as u32));
+            }
         }
     }
 
@@ -82,6 +85,11 @@ impl Mesh {
         both.add(&self);
         both
     }
+}
+
+/// Whether a triangle is more than a line or a point: 0.1 mm² and more, so that it stays one wherever it is put.
+pub(crate) fn has_area(a: Vec3, b: Vec3, c: Vec3) -> bool {
+    (b - a).cross(c - a).length_squared() > 4e-14
 }
 
 /// Unit normal of a closed loop of points (Newell's sum).

@@ -102,7 +102,7 @@ fn land(glb: &mut Glb, options: &Highway, seed: u64) -> Result<(), WorldError> {
     let shape = glb.shape("land", &model);
     glb.node("land", "terrain", shape, at(0.0, 0.0, 0.0, 0.0));
 
-    let trees: Vec<_> = (0..3).map(|k| tree::tree(glb, seed, k)).collect();
+    let trees: Vec<_> = (0..3).map(|k| tree::tree(glb, seed, k, tree::Leaves::Fine)).collect();
     let mut chance = Chance::new(seed, "trees", 0);
     let many = (0.12 * (options.length_m + BEHIND)) as usize;
     for n in 0..many {

@@ -8,12 +8,27 @@ use crate::place::sin_cos;
 use crate::shapes::limb;
 use fog_core::Vec3;
 
-/// Leaves of a tree and their edge in metres: each stands for a bunch.
-const LEAVES: usize = 1700;
-const LEAF: f32 = 0.30;
+/// How finely a tree is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Leaves {
+    /// To be seen from some metres away.
+    Fine,
+    /// To be seen from some hundred metres away.
+    Coarse,
+}
+
+impl Leaves {
+    /// Number of leaves and their edge in metres: each stands for a bunch.
+    fn count_and_edge(self) -> (usize, f32) {
+        match self {
+            Self::Fine => (1700, 0.30),
+            Self::Coarse => (350, 0.65),
+        }
+    }
+}
 
 /// Tree number `index` of a scene: 6 to 10 m high.
-pub(crate) fn tree(glb: &mut Glb, seed: u64, index: u64) -> Shape {
+pub(crate) fn tree(glb: &mut Glb, seed: u64, index: u64, leaves: Leaves) -> Shape {
     let mut chance = Chance::new(seed, "tree", index);
     let bark = glb.material(&Paint::lambertian("bark", [0.09, 0.065, 0.045]));
     let greens = [[0.05f32, 0.12, 0.02], [0.08, 0.16, 0.035], [0.10, 0.17, 0.03]].map(|green| {
@@ -35,11 +50,12 @@ pub(crate) fn tree(glb: &mut Glb, seed: u64, index: u64) -> Shape {
     for &(centre, _) in &blobs {
         model.add(bark, &limb(Vec3::Y * (fork - 0.1), centre, 0.011 * height, 0.003 * height, 6));
     }
-    for _ in 0..LEAVES {
+    let (count, edge) = leaves.count_and_edge();
+    for _ in 0..count {
         let &(centre, radius) = chance.pick(&blobs);
         let direction = on_sphere(&mut chance);
         let r = radius * chance.between(0.2, 1.0).sqrt();
-        leaf(model.part(*chance.pick(&greens)), centre + direction * r, direction, &mut chance);
+        leaf(model.part(*chance.pick(&greens)), centre + direction * r, (direction, edge), &mut chance);
     }
     glb.shape(&format!("tree {index}"), &model)
 }
@@ -51,10 +67,10 @@ fn on_sphere(chance: &mut Chance) -> Vec3 {
     Vec3::new(r * s, y, r * c)
 }
 
-/// A bunch of leaves about a point, more or less facing outward.
-fn leaf(mesh: &mut Mesh, at: Vec3, outward: Vec3, chance: &mut Chance) {
+/// A bunch of leaves about a point, more or less facing outward, of an edge.
+fn leaf(mesh: &mut Mesh, at: Vec3, (outward, edge): (Vec3, f32), chance: &mut Chance) {
     let normal = (outward + 0.8 * on_sphere(chance)).normalize_or(Vec3::Y);
-    let u = normal.any_orthonormal_vector() * LEAF * chance.between(0.6, 1.0);
+    let u = normal.any_orthonormal_vector() * edge * chance.between(0.6, 1.0);
     let v = normal.cross(u);
     mesh.quad(at - 0.5 * (u + v), u, v);
 }

@@ -164,7 +164,14 @@ impl<'a> Fixtures<'a> {
         let (up, level) = sin_cos(beam.elevation_deg);
         let axis = Vec3::new(level * s, up, -level * c);
         let place = Place::at(at.x, at.y, at.z).aimed(axis);
-        self.glb.lamp(&format!("{name}_{}", beam.hue.name()), class(beam.kind), name, lamp, place);
+        let towards = if axis.z > 0.0 { "approach" } else { "far_end" };
+        self.glb.lamp(
+            &format!("{name}_{}_to_{towards}", beam.hue.name()),
+            class(beam.kind),
+            name,
+            lamp,
+            place,
+        );
     }
 }
 

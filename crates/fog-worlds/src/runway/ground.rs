@@ -124,7 +124,7 @@ fn land(glb: &mut Glb, options: &Runway, seed: u64) -> Result<(), WorldError> {
     let shape = glb.shape("grassland", &model);
     glb.node("grassland", "terrain", shape, Place::at(0.0, 0.0, 0.0));
 
-    let trees: Vec<_> = (0..3u64).map(|k| tree::tree(glb, seed, k)).collect();
+    let trees: Vec<_> = (0..3u64).map(|k| tree::tree(glb, seed, k, tree::Leaves::Coarse)).collect();
     let mut chance = Chance::new(seed, "woods", 0);
     let mut n = 0;
     for _ in 0..24 {

@@ -1,6 +1,6 @@
 //! Smooth surfaces over a grid of points.
 
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, has_area};
 use crate::place::sin_cos;
 use fog_core::{Vec2, Vec3};
 
@@ -65,7 +65,7 @@ impl Grid {
                 let [a, b, c, d] = [at(i - 1, j - 1), at(i, j - 1), at(i, j), at(i - 1, j)];
                 for t in [[a, b, c], [a, c, d]] {
                     let [p, q, r] = t.map(|k| mesh.positions[k as usize]);
-                    if (q - p).cross(r - p).length_squared() > 1e-16 {
+                    if has_area(p, q, r) {
                         mesh.indices.extend(t);
                     }
                 }

@@ -20,7 +20,7 @@ pub(super) fn things(glb: &mut Glb, plan: &Plan<'_>) -> Result<(), WorldError> {
 
 fn lamps_and_trees(glb: &mut Glb, plan: &Plan<'_>) {
     let lamp = street_lamp::street_lamp(glb);
-    let trees: Vec<_> = (0..3).map(|k| tree::tree(glb, plan.seed, k)).collect();
+    let trees: Vec<_> = (0..3).map(|k| tree::tree(glb, plan.seed, k, tree::Leaves::Fine)).collect();
     let mut chance = Chance::new(plan.seed, "trees", 0);
     let x = ROAD + BEHIND_KERB;
     let (mut lamps, mut n) = (0, 0);

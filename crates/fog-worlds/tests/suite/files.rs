@@ -22,10 +22,8 @@ fn shipped_scenes_are_what_the_generators_write() {
 fn worlds() -> Vec<World> {
     let urban = Urban { length_m: 80.0, traffic: 1.0, ..Urban::default() };
     vec![
-        World::Urban(Urban { style: Style::Mutcd, ..urban.clone() }),
-        World::Urban(urban),
-        World::Highway(Highway { length_m: 300.0, ..Highway::default() }),
-        World::Highway(Highway { length_m: 200.0, style: Style::Mutcd, ..Highway::default() }),
+        World::Urban(Urban { style: Style::Mutcd, ..urban }),
+        World::Highway(Highway { length_m: 200.0, ..Highway::default() }),
         World::Runway(Runway { length_m: 1200.0, approach: ApproachLights::Malsr, ..Runway::default() }),
         World::Targets(Targets::default()),
     ]

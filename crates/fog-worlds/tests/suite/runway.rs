@@ -35,7 +35,7 @@ fn markings_lie_where_the_circular_has_them() {
     edge([20.0 * FT + d, stripe], [20.0 * FT - d, stripe]);
     edge([170.0 * FT - d, stripe], [170.0 * FT + d, stripe]);
     let painted: Vec<bool> =
-        (-440..440).map(|i| made.below(0.05 * i as f32, -20.0) == "runway marking").collect();
+        (-427..430).map(|i| made.below(0.05 * i as f32, -20.0) == "runway marking").collect();
     // Twelve stripes, the side stripes not among them.
     assert_eq!(painted.windows(2).filter(|p| !p[0] && p[1]).count(), 12);
     // Touchdown zone: three bars a side at 500 ft; side stripe 3 ft wide at the edge.
