@@ -23,6 +23,7 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
+use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
@@ -47,7 +48,7 @@ pub struct PathTracer<'a> {
     pub(crate) settings: Settings,
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
-    roulette_below: f32,
+    pub(crate) roulette_below: f32,
 }
 
 /// What one path saw.
@@ -160,7 +161,7 @@ impl<'a> PathTracer<'a> {
             let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
-                    let sum = self.escape(&path, &lanes);
+                    let sum = self.escape(&path, &lanes, watch);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
                     false
@@ -170,6 +171,7 @@ impl<'a> PathTracer<'a> {
                     let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
                     let sum = self.emitted(&path, &hit, &surface);
                     watch.see(|| Step::surface(&hit, &surface, sum));
+                    watch.light(LightSource::Emitter(hit.triangle), sum, false);
                     out.radiance += sum;
                     self.may_scatter(&path, watch) && {
                         out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
@@ -313,19 +315,25 @@ impl<'a> PathTracer<'a> {
 
     /// Light of the environment, the sky and the sun's disc that a path which leaves the scene meets.
     #[inline(always)]
-    fn escape(&self, path: &Path, lanes: &Lanes) -> Spectrum {
+    fn escape(&self, path: &Path, lanes: &Lanes, watch: &mut impl Watch) -> Spectrum {
         let mut sum = Spectrum::ZERO;
         if let Some(environment) = &self.scene.environment {
             sum += path.beta * (environment.radiance / path.r_u.mean());
+            watch.light(LightSource::Environment, sum, false);
         }
         if let Some(sky) = &self.scene.sky {
             let (radiance, pdf) = sky.radiance_and_pdf(path.direction, lanes.sky());
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sky_probability() * pdf };
-            sum += path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
+            let light = path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
+            watch.light(LightSource::Environment, light, false);
+            sum += light;
         }
         if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
-            sum += path.beta * lanes.sun * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+            let density = (path.r_u + path.r_l * pdf).mean();
+            let light = path.beta * lanes.sun * (sun.radiance() / density);
+            watch.light(LightSource::Sun, light, false);
+            sum += light;
         }
         sum
     }
@@ -393,19 +401,35 @@ impl Path {
     }
 }
 
-/// Reflects the path at a surface or sends it through; false if it ends there.
-fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
-    let Some(bsdf) = &surface.bsdf else { return false };
-    let wo = surface.world_from_shading.transpose() * -path.direction;
-    let Some(sample) = bsdf.sample(wo, rng.uniform(), rng.uniform2()) else { return false };
+/// How a surface turns a path.
+pub(crate) struct SurfaceTurn {
+    pub(crate) origin: Vec3A,
+    pub(crate) direction: Vec3A,
+    /// BSDF times cosine over `pdf`.
+    pub(crate) weight: Spectrum,
+    /// Density of the direction in 1/sr.
+    pub(crate) pdf: f32,
+}
+
+/// Draws how a path along `direction` is reflected at a surface or sent through; `None` if it ends there.
+#[inline(always)]
+pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut PathRng) -> Option<SurfaceTurn> {
+    let wo = surface.world_from_shading.transpose() * -direction;
+    let sample = surface.bsdf.as_ref()?.sample(wo, rng.uniform(), rng.uniform2())?;
     let direction = (surface.world_from_shading * sample.wi).normalize();
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
-        return false;
+        return None;
     }
-    path.beta *= sample.weight;
-    path.r_l = path.r_u * (1.0 / sample.pdf);
-    path.origin = surface.point.spawn_origin(direction);
-    path.direction = direction;
+    let origin = surface.point.spawn_origin(direction);
+    Some(SurfaceTurn { origin, direction, weight: sample.weight, pdf: sample.pdf })
+}
+
+/// Reflects the path at a surface or sends it through; false if it ends there.
+fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
+    let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
+    path.beta *= turn.weight;
+    path.r_l = path.r_u * (1.0 / turn.pdf);
+    (path.origin, path.direction) = (turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
 }
