@@ -15,7 +15,7 @@ pub(super) fn draw(sign: &Sign) -> Panel {
             let d = 30.0 * INCH / 0.9239;
             Panel::regular("STOP".into(), d, 8, 22.5, WHITE)
                 .fill(&Area::Polygon(regular(0.5 * d, 0.475 * d, 8, 22.5)), RED)
-                .write("STOP", [0.5 * d, 0.5 * d], 10.0 * INCH, WHITE)
+                .write("STOP", [0.5 * d, 0.5 * d], 8.0 * INCH, WHITE)
         }
         Sign::Yield => {
             let (w, h) = (36.0 * INCH, 31.2 * INCH);

@@ -17,7 +17,7 @@ pub(super) fn draw(sign: &Sign) -> Panel {
             let d = 0.9;
             Panel::regular("stop".into(), d, 8, 22.5, WHITE)
                 .fill(&Area::Polygon(regular(0.5 * d, 0.47 * d, 8, 22.5)), RED)
-                .write("STOP", [0.5 * d, 0.5 * d], 0.3 * d, WHITE)
+                .write("STOP", [0.5 * d, 0.5 * d], 0.24 * d, WHITE)
         }
         Sign::Yield => {
             let (w, h) = (TRIANGLE, 0.866 * TRIANGLE);
