@@ -24,6 +24,9 @@ const BAR: f32 = 0.5;
 const CROSSWALK: f32 = 3.5;
 const STOP: f32 = 0.5;
 
+/// Draws a level rectangle between two corners along a street.
+type Draw<'a> = dyn FnMut(&mut Mesh, [f32; 2], [f32; 2]) + 'a;
+
 /// A level rectangle between corners (x, z) with x0 < x1, z0 > z1, its texture in metres.
 fn level(mesh: &mut Mesh, [x0, z0]: [f32; 2], [x1, z1]: [f32; 2], y: f32, tile: f32) {
     let corner = |x: f32, z: f32| (Vec3::new(x, y, z), Vec2::new(x, z) / tile);
@@ -142,7 +145,7 @@ fn markings(plan: &Plan<'_>) -> (Mesh, Mesh) {
     for side in [1.0, -1.0] {
         // Crosswalks and stop lines of the arms towards +z and −z, and towards +x and −x.
         let span = |from: f32, to: f32| if side > 0.0 { [to, from] } else { [-from, -to] };
-        let mut bars = |draw: &mut dyn FnMut(&mut Mesh, [f32; 2], [f32; 2]), middle: f32| {
+        let mut bars = |draw: &mut Draw<'_>, middle: f32| {
             let [far, near] = span(FRONT - 2.6, FRONT - 2.6 + CROSSWALK - 0.5);
             let n = (2.0 * ROAD / (2.0 * BAR)) as i32;
             for k in 0..n {
@@ -160,14 +163,7 @@ fn markings(plan: &Plan<'_>) -> (Mesh, Mesh) {
 }
 
 /// Lines along a street from `near` to `far` (falling): middle and edges of the parking strips.
-fn lines(
-    style: Style,
-    near: f32,
-    far: f32,
-    white: &mut Mesh,
-    yellow: &mut Mesh,
-    draw: &mut dyn FnMut(&mut Mesh, [f32; 2], [f32; 2]),
-) {
+fn lines(style: Style, near: f32, far: f32, white: &mut Mesh, yellow: &mut Mesh, draw: &mut Draw<'_>) {
     match style {
         Style::Vienna => {
             let mut z = near;
