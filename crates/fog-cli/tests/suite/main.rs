@@ -23,6 +23,7 @@ mod phases;
 mod pipes;
 mod records;
 mod replay;
+mod scene;
 mod skies;
 mod visibility;
 mod visibility_laws;
