@@ -232,7 +232,9 @@ impl<'a> PathTracer<'a> {
     #[inline(always)]
     fn fly(&self, path: &mut Path, lanes: &Lanes, u: f64) -> (Event, f64) {
         if self.is_patchy() {
-            return self.fly_through_patches(path, lanes, u);
+            let (event, end, crossed) = self.fly_through_patches(path.origin, path.direction, lanes, u);
+            path.crossed = Some(crossed);
+            return (event, end);
         }
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
             let tau = math::neg_ln(1.0 - u);
