@@ -2,6 +2,7 @@
 
 mod analog;
 mod droplets;
+mod emitters;
 mod furnace;
 mod lamps;
 mod materials;

@@ -63,6 +63,8 @@ pub struct PathRadiance {
 /// State of a path between two events.
 struct Path {
     origin: Vec3A,
+    /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
+    vertex: Vec3A,
     direction: Vec3A,
     beta: Spectrum,
     r_u: Spectrum,
@@ -127,6 +129,7 @@ impl<'a> PathTracer<'a> {
         };
         let mut path = Path {
             origin: ray.origin,
+            vertex: ray.origin,
             direction: ray.direction,
             beta: Spectrum::ONE,
             r_u: Spectrum::ONE,
@@ -252,6 +255,7 @@ impl<'a> PathTracer<'a> {
         }
         path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
         path.origin += path.direction * t as f32;
+        path.vertex = path.origin;
         let scatterer = medium.phase.scatterer(medium.profile.zeta(y_hit), &lanes.phase, rng);
         path.beta *= scatterer.probability_ratio;
         path.r_u *= scatterer.probability_ratio;
@@ -311,8 +315,8 @@ impl<'a> PathTracer<'a> {
             return Spectrum::ZERO;
         }
         let cos = -surface.normal.dot(path.direction);
-        let area = self.scene.emitters().pdf_area(hit.triangle) * self.lights.emitter_probability();
-        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        let pdf =
+            if path.depth == 0 { 0.0 } else { self.lights.emitter_pdf(self.scene, path.vertex, hit, cos) };
         path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
@@ -379,6 +383,7 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
     path.beta *= sample.weight;
     path.r_l = path.r_u * (1.0 / sample.pdf);
     path.origin = surface.point.spawn_origin(direction);
+    path.vertex = surface.point.position;
     path.direction = direction;
     path.depth += 1;
     !path.beta.is_zero()
