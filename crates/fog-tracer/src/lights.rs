@@ -1,8 +1,9 @@
 //! Choosing a light for next-event estimation.
 //!
-//! The uniform environment is not among them: to connect to a light that shines alike from everywhere one would draw the
+//! The sky is among them where it has structure. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
 //! direction from the phase function or the BSDF, and that is what continuing the path does.
 
+use crate::path::Lanes;
 use fog_core::Vec3A;
 use fog_core::colour::upsample;
 use fog_core::random::PathRng;
@@ -15,10 +16,11 @@ use fog_scene::scene::Scene;
 /// Distance at which the strongest lamp says what light of lamps is faint, in metres.
 const LAMP_LEVEL_M: f32 = 100.0;
 
-/// Probabilities of aiming at the sun, the emitters, the lamps and the beams; what they leave is no connection at all.
+/// Probabilities of aiming at the sun, the sky, the emitters, the lamps and the beams; what they leave is no connection at all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMix {
     sun: f32,
+    sky: f32,
     compact: f32,
     broad: f32,
     lamps: f32,
@@ -50,10 +52,10 @@ impl LightSample {
 
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let sun = scene.sun.is_some();
+        let (sun, sky) = (scene.sun.is_some(), scene.sky.is_some());
         let [compact, broad] = [Breadth::Compact, Breadth::Broad].map(|b| scene.emitters().has(b));
         let (lamps, beams) = (!scene.lamps().lights().is_empty(), !scene.beams().is_empty());
-        let kinds = [sun, compact, broad, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
+        let kinds = [sun, sky, compact, broad, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
         let share = 1.0 / kinds.iter().sum::<f32>().max(1.0);
         // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
         let sun_level = scene.sun.map_or(0.0, |s| s.irradiance / core::f32::consts::PI);
@@ -61,9 +63,12 @@ impl LightMix {
         let lamp_level = strongest(&mut scene.lamps().lights().iter().map(|l| l.strength()))
             / (LAMP_LEVEL_M * LAMP_LEVEL_M * core::f32::consts::PI);
         let beam_level = strongest(&mut scene.beams().iter().map(|b| b.strength())) / core::f32::consts::PI;
-        let level = sun_level.max(if compact || broad { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
+        let sky_level = scene.sky.as_ref().map_or(0.0, |sky| sky.mean());
+        let emitter_level = if compact || broad { 0.1 } else { 0.0 };
+        let level = sun_level.max(sky_level).max(emitter_level).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
+            sky: if sky { share } else { 0.0 },
             compact: if compact { share } else { 0.0 },
             broad: if broad { share } else { 0.0 },
             lamps: if lamps { share } else { 0.0 },
@@ -74,12 +79,17 @@ impl LightMix {
 
     #[inline]
     pub(crate) fn any(&self) -> bool {
-        self.sun + self.compact + self.broad + self.lamps + self.beams > 0.0
+        self.sun + self.sky + self.compact + self.broad + self.lamps + self.beams > 0.0
     }
 
     #[inline]
     pub(crate) fn sun_probability(&self) -> f32 {
         self.sun
+    }
+
+    #[inline]
+    pub(crate) fn sky_probability(&self) -> f32 {
+        self.sky
     }
 
     /// Probability of aiming at emitters of this breadth.
@@ -122,7 +132,7 @@ impl LightMix {
         &self,
         scene: &Scene,
         from: Vec3A,
-        basis: &[Spectrum; 3],
+        lanes: &Lanes,
         rng: &mut PathRng,
     ) -> Option<LightSample> {
         if !self.any() {
@@ -135,21 +145,33 @@ impl LightMix {
             return Some(LightSample {
                 direction: sun.sample(rng.uniform2()),
                 distance: f32::INFINITY,
-                radiance: Spectrum::splat(value),
+                radiance: lanes.sun * value,
                 pdf: if beam { self.sun } else { self.sun * sun.pdf() },
                 beam,
                 lamp: None,
             });
         }
         let mut pick = pick - self.sun;
+        if let Some(sky) = scene.sky.as_ref().filter(|_| pick < self.sky) {
+            let sample = sky.sample([rng.uniform_f64(), rng.uniform_f64()], lanes.sky());
+            return Some(LightSample {
+                direction: sample.direction,
+                distance: f32::INFINITY,
+                radiance: sample.radiance,
+                pdf: self.sky * sample.pdf,
+                beam: false,
+                lamp: None,
+            });
+        }
+        pick -= self.sky;
         for breadth in [Breadth::Compact, Breadth::Broad] {
             let share = self.emitters(scene, breadth, from);
             if pick < share {
-                return emitter_light(scene, breadth, from, share, basis, rng);
+                return emitter_light(scene, breadth, from, share, &lanes.basis, rng);
             }
             pick -= share;
         }
-        self.without_extent(scene, from, pick, basis, rng)
+        self.without_extent(scene, from, pick, &lanes.basis, rng)
     }
 
     /// Draws a lamp or a beam; `pick` is what remains of the choice of its kind.

@@ -32,6 +32,7 @@ mod reference;
 mod replay;
 mod resources;
 mod sources;
+mod surroundings;
 mod sweep;
 mod table_cache;
 mod tables;
