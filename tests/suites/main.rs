@@ -5,6 +5,7 @@ mod droplets;
 mod emitters;
 mod furnace;
 mod lamps;
+mod light_groups;
 mod materials;
 mod materials_rendered;
 mod noise;

@@ -201,6 +201,12 @@ impl Emitters {
         self.compact.lights().is_empty() && self.broad.lights().is_empty()
     }
 
+    /// The emitting triangles: ids in the geometry.
+    pub fn triangles(&self) -> impl Iterator<Item = u32> {
+        let all = self.places.iter().enumerate();
+        all.filter(|(_, place)| place.per_edge > 0).map(|(triangle, _)| triangle as u32)
+    }
+
     /// True if there are emitters of this breadth.
     #[must_use]
     pub fn has(&self, breadth: Breadth) -> bool {

@@ -27,6 +27,7 @@ pub mod camera;
 pub mod emitters;
 pub mod lamp;
 pub mod light;
+pub mod light_groups;
 pub mod light_tree;
 pub mod medium;
 pub mod phase;

@@ -5,6 +5,7 @@
 
 mod analog;
 mod equiangular;
+mod groups;
 mod lights;
 mod lobe;
 pub mod path;
