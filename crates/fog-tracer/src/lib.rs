@@ -5,13 +5,16 @@
 
 mod analog;
 mod equiangular;
+pub mod features;
 mod groups;
 mod lights;
 mod lobe;
 pub mod path;
 pub mod render;
+pub mod render_shared;
 pub mod replay;
 mod rounds;
 pub mod settings;
+mod shared;
 pub mod truth;
 pub mod watch;
