@@ -3,6 +3,7 @@
 mod analog;
 mod droplets;
 mod furnace;
+mod golden;
 mod lamps;
 mod layers;
 mod light_groups;
