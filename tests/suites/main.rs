@@ -10,6 +10,7 @@ mod light_groups;
 mod materials;
 mod materials_rendered;
 mod noise;
+mod patchy;
 mod phases;
 mod phenomena;
 mod radiances;
