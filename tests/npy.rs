@@ -23,7 +23,7 @@ impl Array {
         let mut header =
             format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({h}, {w}, {c}), }}").into_bytes();
         // Data begin at a multiple of 64 bytes; the header ends in a line feed.
-        while (MAGIC.len() + 2 + header.len() + 1) % 64 != 0 {
+        while !(MAGIC.len() + 2 + header.len() + 1).is_multiple_of(64) {
             header.push(b' ');
         }
         header.push(b'\n');
