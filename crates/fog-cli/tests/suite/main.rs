@@ -18,6 +18,7 @@ mod mistakes;
 mod model_files;
 mod noise;
 mod optics;
+mod patchy;
 mod phases;
 mod pipes;
 mod records;
