@@ -3,12 +3,14 @@
 mod analog;
 mod droplets;
 mod furnace;
+mod golden;
 mod lamps;
 mod layers;
 mod light_groups;
 mod materials;
 mod materials_rendered;
 mod noise;
+mod patchy;
 mod phases;
 mod phenomena;
 mod radiances;

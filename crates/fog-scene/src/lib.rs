@@ -4,7 +4,6 @@ mod attributes;
 mod bvh;
 mod error;
 mod features;
-pub mod generate;
 mod geometry;
 mod gltf_load;
 mod material;
