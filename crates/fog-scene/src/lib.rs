@@ -5,7 +5,6 @@ mod attributes;
 mod bvh;
 mod error;
 mod features;
-pub mod generate;
 mod geometry;
 mod gltf_load;
 mod material;

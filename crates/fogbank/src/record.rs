@@ -29,6 +29,11 @@ pub(crate) fn record(
             "at_base": fog.state_json(base),
             "at_top": fog.state_json(top),
         });
+        let over = camera.pose.position;
+        let patches = fog.patches_json(f64::from(over.x), f64::from(over.z));
+        if !patches.is_null() {
+            state["patchiness"] = patches;
+        }
         for (key, value) in fog.optics_json() {
             state[key] = value;
         }
