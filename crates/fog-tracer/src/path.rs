@@ -69,6 +69,8 @@ pub struct PathRadiance {
 /// State of a path between two events.
 struct Path {
     origin: Vec3A,
+    /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
+    vertex: Vec3A,
     direction: Vec3A,
     beta: Spectrum,
     r_u: Spectrum,
@@ -142,6 +144,7 @@ impl<'a> PathTracer<'a> {
         let lanes = self.lanes(wavelengths);
         let mut path = Path {
             origin: ray.origin,
+            vertex: ray.origin,
             direction: ray.direction,
             beta: Spectrum::ONE,
             r_u: Spectrum::ONE,
@@ -289,6 +292,7 @@ impl<'a> PathTracer<'a> {
         }
         path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
         path.origin += path.direction * t as f32;
+        path.vertex = path.origin;
         let scatterer = medium.phase.scatterer(medium.profile.zeta(y_hit), &lanes.phase, rng);
         path.beta *= scatterer.probability_ratio;
         path.r_u *= scatterer.probability_ratio;
@@ -359,8 +363,8 @@ impl<'a> PathTracer<'a> {
             return Spectrum::ZERO;
         }
         let cos = -surface.normal.dot(path.direction);
-        let area = self.scene.emitters().pdf_area(hit.triangle) * self.lights.emitter_probability();
-        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        let pdf =
+            if path.depth == 0 { 0.0 } else { self.lights.emitter_pdf(self.scene, path.vertex, hit, cos) };
         path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
@@ -420,6 +424,8 @@ impl Path {
 
 /// How a surface turns a path.
 pub(crate) struct SurfaceTurn {
+    /// The surface's point, from where lights are chosen.
+    pub(crate) vertex: Vec3A,
     pub(crate) origin: Vec3A,
     pub(crate) direction: Vec3A,
     /// BSDF times cosine over `pdf`.
@@ -437,8 +443,8 @@ pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut Pat
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return None;
     }
-    let origin = surface.point.spawn_origin(direction);
-    Some(SurfaceTurn { origin, direction, weight: sample.weight, pdf: sample.pdf })
+    let (vertex, origin) = (surface.point.position, surface.point.spawn_origin(direction));
+    Some(SurfaceTurn { vertex, origin, direction, weight: sample.weight, pdf: sample.pdf })
 }
 
 /// Reflects the path at a surface or sends it through; false if it ends there.
@@ -446,7 +452,7 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
     let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
     path.beta *= turn.weight;
     path.r_l = path.r_u * (1.0 / turn.pdf);
-    (path.origin, path.direction) = (turn.origin, turn.direction);
+    (path.vertex, path.origin, path.direction) = (turn.vertex, turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
 }
