@@ -8,7 +8,8 @@ use crate::{
     origin::Origin,
     schema::{
         AEROSOL_OPTICAL_DEPTH, CameraFile, DEFAULT_SEED, FogFile, GROUND_ALBEDO, LightingFile, LightingMap,
-        NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, RenderFile, SensorFile, SunFile, SweepFile, VerticalFile,
+        NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
+        VerticalFile,
     },
     validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
@@ -62,6 +63,9 @@ pub(crate) fn fill_sky(root: &mut Node) {
 
 fn fill_fog(fog: &mut Node) {
     merge(fog, &FogFile::default());
+    if let Some(patchiness) = fog.child_mut("patchiness") {
+        merge(patchiness, &PatchinessFile::default());
+    }
 }
 
 fn fill_lighting(lighting: &mut Node) {

@@ -1,9 +1,10 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
 
+mod aim;
 mod attributes;
 mod bvh;
 mod error;
-pub mod generate;
+mod features;
 mod geometry;
 mod gltf_load;
 mod material;
@@ -14,6 +15,7 @@ mod uv_transform;
 pub use attributes::CornerValues;
 pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
+pub use features::Features;
 pub use geometry::Geometry;
 pub use gltf_load::{Limits, LoadedScene, SceneObject, load};
 pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef};
@@ -27,9 +29,9 @@ pub mod cie_sky;
 pub mod dome;
 pub mod emitters;
 pub mod lamp;
-pub mod lamp_tree;
 pub mod light;
 pub mod light_groups;
+pub mod light_tree;
 pub mod medium;
 pub mod moon;
 pub mod phase;

@@ -7,6 +7,7 @@ mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod patchiness;
 mod phase;
 mod sky;
 mod sweep;
@@ -22,6 +23,7 @@ pub(crate) use light::{
     SUN_DIAMETER_DEG, SunFile,
 };
 pub(crate) use or_none::OrNone;
+pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
@@ -71,7 +73,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error` and `samples`.
+/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);
