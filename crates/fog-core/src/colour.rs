@@ -161,13 +161,14 @@ impl Observer {
     /// luminance is in cd/m². Of irradiance (W m⁻² nm⁻¹) the same in lx.
     #[must_use]
     pub fn relative_to_d65(&self, physical: &[f64; BANDS]) -> BandSpectrum {
-        // Rows on either side of a band's centre that its mean takes in; the first and the last of them count half.
+        // Rows on either side of a band's centre that its mean takes in, by the trapezoidal rule.
         let reach = (0.5 * BAND_STEP_NM / STEP_NM) as i64;
         let mean = |band: usize| {
             let centre = (BandSpectrum::centre_nm(band) - VISIBLE_MIN_NM) / STEP_NM;
             let rows = (-reach..=reach).filter_map(|d| {
                 let row = usize::try_from(centre as i64 + d).ok().filter(|&row| row < ROWS)?;
-                Some((f64::from(self.d65[row]), if d.abs() == reach { 0.5 } else { 1.0 }))
+                let ends = d.abs() == reach || (d == 0 && (band == 0 || band == BANDS - 1));
+                Some((f64::from(self.d65[row]), if ends { 0.5 } else { 1.0 }))
             });
             let (sum, weights) =
                 rows.fold((0.0, 0.0), |(s, w), (d65, weight)| (s + d65 * weight, w + weight));

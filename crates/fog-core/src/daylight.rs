@@ -23,9 +23,8 @@ pub fn daylight(observer: &Observer, colour_temperature_k: f64) -> BandSpectrum 
     let physical: [f64; BANDS] = core::array::from_fn(|band| {
         let row = 2 * band;
         let sides = [row.checked_sub(1), Some(row + 1).filter(|&r| r < ROWS)];
-        let (sum, weight) =
-            sides.iter().flatten().fold((rows[row], 1.0), |(s, w), &r| (s + 0.5 * rows[r], w + 0.5));
-        sum / weight
+        let beside: Vec<f64> = sides.iter().flatten().map(|&r| 0.5 * (rows[row] + rows[r])).collect();
+        beside.iter().sum::<f64>() / beside.len() as f64
     });
     let relative = observer.relative_to_d65(&physical);
     let y = luminance(observer.rgb_of(|nm| relative.at(nm)));
