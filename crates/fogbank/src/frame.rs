@@ -86,6 +86,9 @@ pub fn render_frame(
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
+    if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
+        record["lighting"]["sky"]["state"] = sky.state_json().clone();
+    }
     let denoised =
         denoiser.map(|denoiser| denoise::denoised(&scene, &camera, &frame, denoiser)).transpose()?;
     Ok(Rendered { frame, record, camera, denoised })

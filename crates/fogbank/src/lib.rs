@@ -32,6 +32,7 @@ mod record;
 mod reference;
 mod replay;
 mod resources;
+mod skies;
 mod sources;
 mod surroundings;
 mod sweep;
