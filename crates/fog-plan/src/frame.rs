@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
+    share::Share,
 };
 
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
@@ -336,6 +337,9 @@ pub struct RenderSpec {
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
     pub wavelength_nm: Option<f64>,
+    /// Which other frames of the plan the paths are shared with. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<Share>,
 }
 
 /// When enough of a pixel has been sampled.

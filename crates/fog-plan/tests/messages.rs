@@ -341,6 +341,17 @@ fn luminance_of_one() {
 }
 
 #[test]
+fn what_is_shared() {
+    let head = HEAD.replace("samples: 4", "samples: 4, share: fogs");
+    assert_eq!(
+        errors_with(&format!("{head}fog: none\n"), &[]),
+        [
+            "configs/x.yaml:5:29: render.share: unknown value \"fogs\"; expected one of lights, fog; did you mean `fog`?"
+        ]
+    );
+}
+
+#[test]
 fn light_groups() {
     let groups = |groups: &str| {
         let lighting = format!("lighting: {{groups: {groups}}}");

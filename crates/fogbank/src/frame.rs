@@ -77,9 +77,21 @@ pub fn render_frame(
     let frame =
         fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
             .ok_or(Error::Cancelled)?;
-    let mut record = record(spec, fog.as_ref(), &scene, &camera, &frame, config_digest);
+    Ok(finish(spec, resources, (&scene, fog.as_ref()), frame, config_digest))
+}
+
+/// A frame with its record.
+pub(crate) fn finish(
+    spec: &FrameSpec,
+    resources: &Resources,
+    (scene, fog): (&Scene, Option<&Fog>),
+    frame: Frame,
+    config_digest: &str,
+) -> Rendered {
+    let camera = camera(&spec.camera, &spec.sensor);
+    let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
-    Ok(Rendered { frame, record, camera })
+    Rendered { frame, record, camera }
 }

@@ -21,6 +21,7 @@ mod phases;
 mod pipes;
 mod records;
 mod replay;
+mod share;
 mod skies;
 mod visibility;
 mod visibility_laws;
