@@ -97,6 +97,10 @@ pub(crate) struct WorkArgs {
     /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder].
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
+    /// Library of Open Image Denoise 2, or its folder, for the output `denoised` [default: the environment variable
+    /// FOGBANK_OIDN, else where the system looks for libraries].
+    #[arg(long, value_name = "PATH")]
+    pub(crate) oidn: Option<PathBuf>,
     /// Print errors only.
     #[arg(long, short)]
     pub(crate) quiet: bool,

@@ -376,4 +376,6 @@ pub enum Output {
     StandardError,
     /// Number of samples of each pixel.
     Samples,
+    /// An estimate of `Hdr`, which is then there too, without its noise.
+    Denoised,
 }

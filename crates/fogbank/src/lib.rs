@@ -19,6 +19,7 @@
 
 mod changed_files;
 mod compare;
+mod denoise;
 mod droplets;
 mod error;
 mod fog;

@@ -133,7 +133,7 @@ fn one_pass(
     let share = json!({ "frames": ids, "fogs": fogs.len(), "seed": base.seed });
     let done = |(&i, frame): (&usize, Result<_, fog_film::FrameError>)| {
         let (scene, fog) = made[i].as_ref().map_err(|_| Error::Cancelled)?;
-        let mut rendered = finish(set[i], resources, (scene, fog.as_ref()), frame?, config_digest);
+        let mut rendered = finish(set[i], resources, (scene, fog.as_ref()), frame?, config_digest)?;
         rendered.record["share"] = share.clone();
         Ok(rendered)
     };

@@ -5,6 +5,7 @@ mod commands;
 mod common;
 mod compare;
 mod data_set;
+mod denoise;
 mod determinism;
 mod droplets;
 mod failures;

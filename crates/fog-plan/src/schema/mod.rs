@@ -67,7 +67,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error` and `samples`.
+/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);
