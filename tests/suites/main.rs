@@ -2,13 +2,16 @@
 
 mod analog;
 mod droplets;
+mod emitters;
 mod furnace;
+mod golden;
 mod lamps;
 mod layers;
 mod light_groups;
 mod materials;
 mod materials_rendered;
 mod noise;
+mod patchy;
 mod phases;
 mod phenomena;
 mod radiances;

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
+    patchiness::PatchinessSpec,
     share::Share,
 };
 
@@ -78,6 +79,9 @@ pub struct FogSpec {
     pub sampling: Sampling,
     /// Scales extinction so that the layer has this visibility.
     pub visibility: Option<Visibility>,
+    /// Random billows; absent, and then not written: the layer is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub patchiness: Option<PatchinessSpec>,
     /// World height (y) of altitude 0, in metres; −500 to 9000.
     pub datum_m: f64,
 }

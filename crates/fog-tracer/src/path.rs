@@ -5,10 +5,12 @@
 //! both relative to the hero's density: dividing by the mean of `r_u + r_l·p` over the lanes is the balance heuristic over
 //! wavelengths and strategies at once (Wilkie et al. 2014; Miller et al. 2019; names after pbrt-v4, sec. 14.2).
 //!
-//! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
+//! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`], and
+//! [`fog_core::patchiness`] for patchy fog.
 
 mod connect;
 mod glow;
+mod patchy;
 
 use self::glow::Flight;
 use crate::lights::LightMix;
@@ -17,6 +19,7 @@ use crate::settings::Settings;
 use crate::watch::{FlightEnd, Step, Watch, Weights};
 use fog_core::bands::BandLanes;
 use fog_core::colour::Observer;
+use fog_core::patchiness::Crossed;
 use fog_core::profile::ProfileLanes;
 use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
@@ -66,12 +69,16 @@ pub struct PathRadiance {
 /// State of a path between two events.
 struct Path {
     origin: Vec3A,
+    /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
+    vertex: Vec3A,
     direction: Vec3A,
     beta: Spectrum,
     r_u: Spectrum,
     r_l: Spectrum,
     /// Scatterings so far.
     depth: u32,
+    /// What the last flight crossed, in patchy fog.
+    crossed: Option<Crossed>,
 }
 
 /// What the wavelengths of a path need to be looked up.
@@ -137,17 +144,19 @@ impl<'a> PathTracer<'a> {
         let lanes = self.lanes(wavelengths);
         let mut path = Path {
             origin: ray.origin,
+            vertex: ray.origin,
             direction: ray.direction,
             beta: Spectrum::ONE,
             r_u: Spectrum::ONE,
             r_l: Spectrum::ZERO,
             depth: 0,
+            crossed: None,
         };
         let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
         let mut u = f64::from(first_flight);
         loop {
             // Fly to the next collision in the fog, or to a surface before it.
-            let (event, end) = self.fly(&path, &lanes, u);
+            let (event, end) = self.fly(&mut path, &lanes, u);
             watch.see(|| self.flight(&path, &lanes, u, &event));
             let segment = self.lit_segment(&path, end);
             if let Some(segment) = &segment {
@@ -224,7 +233,12 @@ impl<'a> PathTracer<'a> {
     /// Samples the free flight at the hero wavelength and looks for a surface before its end. Among lamps, also the distance
     /// of the first surface behind it.
     #[inline(always)]
-    fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> (Event, f64) {
+    fn fly(&self, path: &mut Path, lanes: &Lanes, u: f64) -> (Event, f64) {
+        if self.is_patchy() {
+            let (event, end, crossed) = self.fly_through_patches(path.origin, path.direction, lanes, u);
+            path.crossed = Some(crossed);
+            return (event, end);
+        }
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
             let tau = math::neg_ln(1.0 - u);
             let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
@@ -251,7 +265,8 @@ impl<'a> PathTracer<'a> {
             return;
         }
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let tau = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+        let even = || medium.profile.optical_depth(y, dy, t, &lanes.profile);
+        let tau = path.crossed.map_or_else(even, |crossed| crossed.depth);
         path.r_l *= math::fast_exp(tau[0]);
         if !medium.grey {
             let ratio = (tau - Spectrum::splat(tau[0])).exp_neg();
@@ -265,9 +280,11 @@ impl<'a> PathTracer<'a> {
     fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, rng: &mut PathRng) -> Scatterer {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let y_hit = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let even_y = || (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let y_hit = path.crossed.map_or_else(even_y, |crossed| crossed.even_y);
         if !medium.grey {
-            let depth = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+            let even = || medium.profile.optical_depth(y, dy, t, &lanes.profile);
+            let depth = path.crossed.map_or_else(even, |crossed| crossed.depth);
             let sigma_t = medium.profile.sigma_t(y_hit, &lanes.profile);
             let ratio = (depth - Spectrum::splat(tau as f32)).exp_neg() * sigma_t * (1.0 / sigma_t[0]);
             path.beta *= ratio;
@@ -275,6 +292,7 @@ impl<'a> PathTracer<'a> {
         }
         path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
         path.origin += path.direction * t as f32;
+        path.vertex = path.origin;
         let scatterer = medium.phase.scatterer(medium.profile.zeta(y_hit), &lanes.phase, rng);
         path.beta *= scatterer.probability_ratio;
         path.r_u *= scatterer.probability_ratio;
@@ -345,8 +363,8 @@ impl<'a> PathTracer<'a> {
             return Spectrum::ZERO;
         }
         let cos = -surface.normal.dot(path.direction);
-        let area = self.scene.emitters().pdf_area(hit.triangle) * self.lights.emitter_probability();
-        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        let pdf =
+            if path.depth == 0 { 0.0 } else { self.lights.emitter_pdf(self.scene, path.vertex, hit, cos) };
         path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
@@ -369,7 +387,9 @@ impl<'a> PathTracer<'a> {
         };
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
         let fog = self.medium.as_ref().zip(lanes.medium.as_ref());
-        let tau = fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
+        let even =
+            || fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
+        let tau = path.crossed.map_or_else(even, |crossed| Some(crossed.depth));
         Step::Flight {
             origin: path.origin,
             direction: path.direction,
@@ -383,8 +403,9 @@ impl<'a> PathTracer<'a> {
     /// A collision for a watch.
     fn collision(&self, path: &Path, lanes: &Lanes, scatterer: &Scatterer) -> Step {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
-        let here = [medium.profile.sigma_t(y, &lanes.profile), medium.profile.albedo(y, &lanes.profile)];
+        let (y, density) = self.even_place(path);
+        let sigma_t = medium.profile.sigma_t(y, &lanes.profile) * density;
+        let here = [sigma_t, medium.profile.albedo(y, &lanes.profile)];
         Step::collision(path.origin, here, scatterer, path.weights())
     }
 }
@@ -403,6 +424,8 @@ impl Path {
 
 /// How a surface turns a path.
 pub(crate) struct SurfaceTurn {
+    /// The surface's point, from where lights are chosen.
+    pub(crate) vertex: Vec3A,
     pub(crate) origin: Vec3A,
     pub(crate) direction: Vec3A,
     /// BSDF times cosine over `pdf`.
@@ -420,8 +443,8 @@ pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut Pat
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return None;
     }
-    let origin = surface.point.spawn_origin(direction);
-    Some(SurfaceTurn { origin, direction, weight: sample.weight, pdf: sample.pdf })
+    let (vertex, origin) = (surface.point.position, surface.point.spawn_origin(direction));
+    Some(SurfaceTurn { vertex, origin, direction, weight: sample.weight, pdf: sample.pdf })
 }
 
 /// Reflects the path at a surface or sends it through; false if it ends there.
@@ -429,7 +452,7 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
     let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
     path.beta *= turn.weight;
     path.r_l = path.r_u * (1.0 / turn.pdf);
-    (path.origin, path.direction) = (turn.origin, turn.direction);
+    (path.vertex, path.origin, path.direction) = (turn.vertex, turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
 }

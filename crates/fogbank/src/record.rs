@@ -29,6 +29,11 @@ pub(crate) fn record(
             "at_base": fog.state_json(base),
             "at_top": fog.state_json(top),
         });
+        let over = camera.pose.position;
+        let patches = fog.patches_json(f64::from(over.x), f64::from(over.z));
+        if !patches.is_null() {
+            state["patchiness"] = patches;
+        }
         for (key, value) in fog.optics_json() {
             state[key] = value;
         }
@@ -52,7 +57,7 @@ pub(crate) fn record(
         "tau_wavelength_nm": TAU_NM,
         "image": "direct + airlight",
     });
-    let (lamps, beams) = (scene.lamps().lamps().len(), scene.beams().len());
+    let (lamps, beams) = (scene.lamps().lights().len(), scene.beams().len());
     if lamps + beams > 0 {
         value["lighting"]["scene_lights"] = json!({
             "points_and_spots": lamps,

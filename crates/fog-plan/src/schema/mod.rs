@@ -7,6 +7,7 @@ mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod patchiness;
 mod phase;
 mod sweep;
 
@@ -21,6 +22,7 @@ pub(crate) use light::{
     SUN_DIAMETER_DEG, SunFile,
 };
 pub(crate) use or_none::OrNone;
+pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 

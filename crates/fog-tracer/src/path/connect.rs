@@ -29,7 +29,7 @@ impl PathTracer<'_> {
         let mut density = path.r_u * light.density(value.density * transmittance);
         if let Some((flight, lamp)) = flight.zip(light.lamp()) {
             let lamps = self.scene.lamps();
-            let near = flight.segment.near(lamps.lamps()[lamp].position).pdf(flight.t) as f32;
+            let near = flight.segment.near(lamps.lights()[lamp].position).pdf(flight.t) as f32;
             density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
         }
         let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());
@@ -121,6 +121,9 @@ impl PathTracer<'_> {
         let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
             return Spectrum::ONE;
         };
+        if let Some(patchy) = &medium.patchy {
+            return self.transmittance_of_patches(patchy, origin, direction, distance, lanes);
+        }
         let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
         medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile).exp_neg()
     }
