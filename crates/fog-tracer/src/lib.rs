@@ -5,6 +5,7 @@
 
 mod analog;
 mod equiangular;
+mod layer_light;
 mod lights;
 mod lobe;
 pub mod path;

@@ -9,8 +9,10 @@
 
 mod connect;
 mod glow;
+mod layer;
 
 use self::glow::Flight;
+use crate::layer_light::{LayerLanes, LayerLight};
 use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
@@ -29,7 +31,7 @@ use fog_scene::scene::{Scene, Surface};
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
 /// Smallest probability of survival: bounds the weight of survivors.
-const ROULETTE_MIN: f32 = 0.5;
+const ROULETTE_MIN: f32 = 0.3;
 /// Throughput below which roulette is played where every path ends in an environment: faint paths still tell much.
 const ROULETTE_BELOW_SKY: f32 = 0.3;
 /// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
@@ -46,6 +48,7 @@ pub struct PathTracer<'a> {
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
     roulette_below: f32,
+    layer_light: Option<LayerLight>,
 }
 
 /// What one path saw.
@@ -61,10 +64,10 @@ pub struct PathRadiance {
 }
 
 /// State of a path between two events.
-struct Path {
-    origin: Vec3A,
-    direction: Vec3A,
-    beta: Spectrum,
+pub(crate) struct Path {
+    pub(crate) origin: Vec3A,
+    pub(crate) direction: Vec3A,
+    pub(crate) beta: Spectrum,
     r_u: Spectrum,
     r_l: Spectrum,
     /// Scatterings so far.
@@ -75,6 +78,8 @@ struct Path {
 pub(crate) struct Lanes {
     pub(crate) basis: [Spectrum; 3],
     pub(crate) medium: Option<MediumLanes>,
+    /// In the layer's own light; `None` where paths do not use it.
+    layer: Option<LayerLanes>,
 }
 
 /// What ends a flight.
@@ -93,7 +98,8 @@ impl<'a> PathTracer<'a> {
         let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
         let roulette_below = if scene.environment.is_some() { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
         let lights = LightMix::new(scene);
-        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below }
+        let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
+        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below, layer_light }
     }
 
     /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.
@@ -124,15 +130,9 @@ impl<'a> PathTracer<'a> {
         let lanes = Lanes {
             basis: self.observer.lane_basis(wavelengths),
             medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
+            layer: self.layer_lanes(wavelengths),
         };
-        let mut path = Path {
-            origin: ray.origin,
-            direction: ray.direction,
-            beta: Spectrum::ONE,
-            r_u: Spectrum::ONE,
-            r_l: Spectrum::ZERO,
-            depth: 0,
-        };
+        let mut path = Path::new(ray.origin, ray.direction);
         let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
         let mut u = f64::from(first_flight);
         loop {
@@ -154,12 +154,16 @@ impl<'a> PathTracer<'a> {
                     let sum = self.escape(&path);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
+                    let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
+                    let expected = self.layer_beside(&path, &lanes, beyond);
+                    self.add_difference(&mut out, expected, Spectrum::ZERO, watch);
                     false
                 }
                 Event::Surface(hit) => {
                     self.pass(&mut path, &lanes, f64::from(hit.t));
                     let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
                     let sum = self.emitted(&path, &hit, &surface);
+                    let expected = self.layer_beside(&path, &lanes, f64::from(surface.point.position.y));
                     watch.see(|| Step::surface(&hit, &surface, sum));
                     out.radiance += sum;
                     self.may_scatter(&path, watch) && {
@@ -167,6 +171,8 @@ impl<'a> PathTracer<'a> {
                         let before = path.direction;
                         let scattered = scatter_at_surface(&mut path, &surface, rng);
                         watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
+                        let after = if scattered { self.layer_ahead(&path, &lanes) } else { Spectrum::ZERO };
+                        self.add_difference(&mut out, expected, after, watch);
                         scattered
                     }
                 }
@@ -187,11 +193,14 @@ impl<'a> PathTracer<'a> {
                         out.radiance +=
                             self.scatter_in_fog(&mut path, &scatterer, flight, &lanes, rng, watch);
                         watch.see(|| path.turn(before.1));
+                        let after = self.layer_at_collision(&path, &lanes, rng);
+                        self.add_difference(&mut out, Spectrum::ZERO, after, watch);
                         true
                     }
                 }
             };
-            if !goes_on || !survives_roulette(&mut path, self.roulette_below, rng, watch) {
+            let below = self.roulette_below(&path);
+            if !goes_on || !survives_roulette(&mut path, below, rng, watch) {
                 return out;
             }
             u = rng.uniform_f64();
@@ -356,6 +365,11 @@ impl<'a> PathTracer<'a> {
 }
 
 impl Path {
+    pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
+        let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
+        Self { origin, direction, beta, r_u, r_l, depth: 0 }
+    }
+
     fn weights(&self) -> Weights {
         Weights { beta: self.beta, r_u: self.r_u, r_l: self.r_l }
     }
@@ -368,7 +382,7 @@ impl Path {
 }
 
 /// Reflects the path at a surface or sends it through; false if it ends there.
-fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
+pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
     let Some(bsdf) = &surface.bsdf else { return false };
     let wo = surface.world_from_shading.transpose() * -path.direction;
     let Some(sample) = bsdf.sample(wo, rng.uniform(), rng.uniform2()) else { return false };
