@@ -11,7 +11,7 @@ use fog_tests::scenes;
 const WHITE: Option<Environment> = Some(Environment { radiance: 1.0 });
 
 /// Every pixel is 1 within its own noise, and so is the mean.
-fn assert_white(name: &str, scene: &Scene, camera_altitude: f32, pitch: f64, samples: u64) {
+pub(crate) fn assert_white(name: &str, scene: &Scene, camera_altitude: f32, pitch: f64, samples: u64) {
     let camera = scenes::camera(camera_altitude, 30.0, pitch, 32, 18, 90.0);
     let frame = scenes::render(scene, &camera, samples, None, 5);
     let n = frame.pixel_count();

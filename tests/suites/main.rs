@@ -11,5 +11,6 @@ mod phases;
 mod radiances;
 mod replay;
 mod samplers;
+mod sky;
 mod street;
 mod truth;

@@ -7,12 +7,15 @@
 //!
 //! Sources: `tables/cie/README.md`.
 
+use crate::bands::{BAND_STEP_NM, BANDS, BandSpectrum};
 use crate::spectrum::{LANES, Spectrum, Wavelengths};
 
 /// First wavelength of the visible range that is rendered, in nm.
 pub const VISIBLE_MIN_NM: f32 = 380.0;
 /// Last wavelength of the visible range that is rendered, in nm.
 pub const VISIBLE_MAX_NM: f32 = 780.0;
+/// Luminous efficacy in lm/W of radiation whose luminous efficiency is 1 (SI, with V(λ) of standard air).
+const EFFICACY_LM_W: f64 = 683.002;
 const STEP_NM: f32 = 5.0;
 const ROWS: usize = 81;
 
@@ -28,6 +31,8 @@ pub struct Observer {
     response: [[f32; 3]; ROWS],
     basis: [[f32; 3]; ROWS],
     d65: [f32; ROWS],
+    /// Spectral radiance at 560 nm of D65 of 1 cd/m², in W m⁻² sr⁻¹ nm⁻¹.
+    d65_of_one_cd_m2: f64,
 }
 
 /// Parses a CSV of numbers with one header line that is part of this program.
@@ -81,7 +86,12 @@ impl Observer {
         let scale: [f64; 3] =
             core::array::from_fn(|p| (0..3).map(|c| inverse[p][c] * white[c]).sum::<f64>() * luminance);
 
-        let mut this = Self { response: [[0.0; 3]; ROWS], basis: [[0.0; 3]; ROWS], d65: [0.0; ROWS] };
+        let mut this = Self {
+            response: [[0.0; 3]; ROWS],
+            basis: [[0.0; 3]; ROWS],
+            d65: [0.0; ROWS],
+            d65_of_one_cd_m2: 100.0 / (EFFICACY_LM_W * luminance),
+        };
         for i in 0..ROWS {
             for p in 0..3 {
                 this.response[i][p] =
@@ -145,6 +155,27 @@ impl Observer {
     pub fn d65(&self, nm: f32) -> f32 {
         let (i, t) = Self::locate(nm);
         self.d65[i] + (self.d65[i + 1] - self.d65[i]) * t
+    }
+
+    /// Physical spectral radiance (W m⁻² sr⁻¹ nm⁻¹, means over the bands) relative to D65 of 1 cd/m²: what is recorded of it as
+    /// luminance is in cd/m². Of irradiance (W m⁻² nm⁻¹) the same in lx.
+    #[must_use]
+    pub fn relative_to_d65(&self, physical: &[f64; BANDS]) -> BandSpectrum {
+        // Rows on either side of a band's centre that its mean takes in; the first and the last of them count half.
+        let reach = (0.5 * BAND_STEP_NM / STEP_NM) as i64;
+        let mean = |band: usize| {
+            let centre = (BandSpectrum::centre_nm(band) - VISIBLE_MIN_NM) / STEP_NM;
+            let rows = (-reach..=reach).filter_map(|d| {
+                let row = usize::try_from(centre as i64 + d).ok().filter(|&row| row < ROWS)?;
+                Some((f64::from(self.d65[row]), if d.abs() == reach { 0.5 } else { 1.0 }))
+            });
+            let (sum, weights) =
+                rows.fold((0.0, 0.0), |(s, w), (d65, weight)| (s + d65 * weight, w + weight));
+            sum / weights
+        };
+        BandSpectrum(core::array::from_fn(|band| {
+            (physical[band] / (mean(band) * self.d65_of_one_cd_m2)) as f32
+        }))
     }
 
     /// Linear sRGB of a relative spectrum given as a function of wavelength (piecewise linear between the 5 nm rows).

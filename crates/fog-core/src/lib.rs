@@ -6,9 +6,11 @@
 //! Conventions: SI inside (metres, 1/m, W m⁻² sr⁻¹ nm⁻¹), wavelengths in nanometres where a name says `_nm`, angles in
 //! radians unless a name says `_deg`. World: right-handed, +Y up; altitude is y over the fog's datum.
 
+pub mod bands;
 pub mod colour;
 pub mod delta_e;
 pub mod diameter_choice;
+pub mod distribution_2d;
 pub mod droplet_table;
 pub mod math;
 pub mod moments;

@@ -4,6 +4,8 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
+use exr::math::Vec2;
+use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
 use fog_core::colour::{Rgb, srgb_decode};
 use fog_film::{Picture, Scale, Srgb8Picture};
@@ -15,14 +17,16 @@ use crate::{Error, Result, atomic, encode};
 
 /// First bytes of an OpenEXR file.
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+/// Most pixels of an OpenEXR file that is read.
+const MAX_EXR_PIXELS: u64 = 1 << 27;
 /// Largest difference of a chromaticity coordinate that still counts as rounding.
 const CHROMATICITY_ROUNDING: f32 = 1e-3;
 
 /// Reads a picture; what kind of file it is follows from its first bytes, not from its name.
 ///
 /// OpenEXR: the channels `R`, `G`, `B` (or `Y`, as grey) of the first layer are linear radiance, with the exposure that
-/// our files record or else 1, and with `standard_error.Y` if the file has it. PNG and JPEG: sRGB of 8 or 16 bits; an
-/// alpha channel, a colour profile and a gamma are ignored.
+/// our files record or else 1, and with `standard_error.Y` if the file has it. Radiance HDR (RGBE): linear radiance. PNG and
+/// JPEG: sRGB of 8 or 16 bits; an alpha channel, a colour profile and a gamma are ignored.
 ///
 /// # Errors
 /// [`Error::Io`] when the file cannot be read, [`Error::NotAPicture`] when it is something else or its colours are not those
@@ -36,9 +40,10 @@ pub fn read_picture(path: &Path) -> Result<Picture> {
     }
     match image::guess_format(&start) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => from_srgb(path, format),
+        Ok(ImageFormat::Hdr) => from_rgbe(path),
         _ => Err(not_a_picture(
             path,
-            "it is neither PNG nor JPEG nor OpenEXR, going by its first bytes".into(),
+            "it is neither PNG nor JPEG nor Radiance HDR nor OpenEXR, going by its first bytes".into(),
         )),
     }
 }
@@ -60,15 +65,42 @@ fn not_a_picture(path: &Path, reason: String) -> Error {
 }
 
 fn from_srgb(path: &Path, format: ImageFormat) -> Result<Picture> {
+    let (width, height, mut rgb) = decode(path, format)?;
+    for pixel in &mut rgb {
+        *pixel = pixel.map(srgb_decode);
+    }
+    Ok(Picture { width, height, scale: Scale::Display, rgb, standard_error: None })
+}
+
+fn from_rgbe(path: &Path) -> Result<Picture> {
+    let (width, height, rgb) = decode(path, ImageFormat::Hdr)?;
+    Ok(Picture { width, height, scale: Scale::Radiance { exposure: 1.0 }, rgb, standard_error: None })
+}
+
+fn decode(path: &Path, format: ImageFormat) -> Result<(u32, u32, Vec<Rgb>)> {
     let mut reader = ImageReader::open(path).map_err(Error::io("read", path))?;
     reader.set_format(format);
     let decoded = reader.decode().map_err(Error::picture("decode", path))?.into_rgb32f();
     let (width, height) = decoded.dimensions();
-    let rgb = decoded.pixels().map(|pixel| pixel.0.map(srgb_decode)).collect();
-    Ok(Picture { width, height, scale: Scale::Display, rgb, standard_error: None })
+    Ok((width, height, decoded.pixels().map(|pixel| pixel.0).collect()))
+}
+
+/// Refuses files whose header promises more than [`MAX_EXR_PIXELS`], before room is made for them.
+fn check_exr_size(path: &Path) -> Result<()> {
+    let file = fs::File::open(path).map_err(Error::io("read", path))?;
+    let header = MetaData::read_from_unbuffered(file, false).map_err(Error::picture("decode", path))?;
+    let pixels = |size: Vec2<usize>| (size.0 as u64).saturating_mul(size.1 as u64);
+    match header.headers.iter().map(|h| h.layer_size).find(|size| pixels(*size) > MAX_EXR_PIXELS) {
+        Some(Vec2(width, height)) => {
+            let reason = format!("it has {width} × {height} px; up to {MAX_EXR_PIXELS} px in all are read");
+            Err(not_a_picture(path, reason))
+        }
+        None => Ok(()),
+    }
 }
 
 fn from_exr(path: &Path) -> Result<Picture> {
+    check_exr_size(path)?;
     let mut contents = exr_file::read(path)?;
     if contents.chromaticities.is_some_and(|found| !is_rec_709(&found)) {
         let reason = "its primaries are not those of sRGB (Rec. 709); convert it first".to_owned();

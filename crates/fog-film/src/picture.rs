@@ -73,6 +73,36 @@ impl Picture {
     }
 }
 
+impl Picture {
+    /// The picture of means over blocks of `size` × `size` pixels, smaller ones at the right and the lower edge: noise that
+    /// differs from pixel to pixel falls to 1/`size`. Standard errors are those of the means. A size of 0 counts as 1.
+    #[must_use]
+    pub fn blocks(&self, size: u32) -> Self {
+        let size = size.max(1);
+        let (width, height) = (self.width.div_ceil(size), self.height.div_ceil(size));
+        let count = width as usize * height as usize;
+        let mut sums = vec![([0.0f64; 3], 0.0f64, 0u32); count];
+        for (i, rgb) in self.rgb.iter().enumerate() {
+            let [x, y] = [i as u32 % self.width, i as u32 / self.width].map(|v| v / size);
+            let (sum, squared_error, pixels) = &mut sums[y as usize * width as usize + x as usize];
+            for c in 0..3 {
+                sum[c] += f64::from(rgb[c]);
+            }
+            *squared_error += self.standard_error.as_ref().map_or(0.0, |e| f64::from(e[i]).powi(2));
+            *pixels += 1;
+        }
+        let mean = |(sum, _, n): &([f64; 3], f64, u32)| sum.map(|s| (s / f64::from(*n)) as f32);
+        let error = |(_, squared, n): &([f64; 3], f64, u32)| (squared.sqrt() / f64::from(*n)) as f32;
+        Self {
+            width,
+            height,
+            scale: self.scale,
+            rgb: sums.iter().map(mean).collect(),
+            standard_error: self.standard_error.as_ref().map(|_| sums.iter().map(error).collect()),
+        }
+    }
+}
+
 /// The 8-bit sRGB value of a linear one, clamped to [0, 1] and rounded to the nearest.
 #[inline]
 #[must_use]
@@ -104,6 +134,27 @@ mod tests {
         assert_eq!(p.shown(0), [0.0, 0.5, 1.0]);
         p.scale = Scale::Display;
         assert_eq!(p.shown(0), [0.0, 0.25, 1.0]);
+    }
+
+    #[test]
+    fn means_over_blocks() {
+        let values = [1.0, 2.0, 5.0, 3.0, 6.0, 7.0, 4.0, 0.0, 8.0f32];
+        let picture = Picture {
+            width: 3,
+            height: 3,
+            scale: Scale::Radiance { exposure: 2.0 },
+            rgb: values.iter().map(|&v| [v, 0.5, -v]).collect(),
+            standard_error: Some(vec![0.3, 0.0, 0.1, 0.4, 0.0, 0.1, 0.5, 1.2, 0.7]),
+        };
+        let blocks = picture.blocks(2);
+        assert_eq!((blocks.width, blocks.height, blocks.scale), (2, 2, picture.scale));
+        let want = [3.0, 6.0, 2.0, 8.0];
+        assert_eq!(blocks.rgb, want.map(|v| [v, 0.5, -v]));
+        let errors = blocks.standard_error.expect("as there were");
+        let want = [0.5 / 4.0, 0.02f32.sqrt() / 2.0, 1.3 / 2.0, 0.7];
+        assert!(errors.iter().zip(want).all(|(e, w)| (e / w - 1.0).abs() < 1e-6), "{errors:?}");
+        assert_eq!(picture.blocks(1), picture);
+        assert_eq!(picture.blocks(99).rgb, [[4.0, 0.5, -4.0]]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What one frame is: every value resolved, checked and in SI units.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
@@ -259,7 +259,7 @@ pub struct SensorSpec {
 pub struct LightingSpec {
     /// Name of the preset that the values come from, if any.
     pub preset: Option<&'static str>,
-    /// Uniform light from every direction.
+    /// Light of the surroundings.
     pub environment: Option<EnvironmentSpec>,
     /// The sun.
     pub sun: Option<SunSpec>,
@@ -270,13 +270,37 @@ pub struct LightingSpec {
     pub luminance_of_one_cd_m2: f64,
 }
 
-/// Uniform light from every direction.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct EnvironmentSpec {
-    /// Radiance with the spectrum of D65, R = G = B = this; with `wavelength_nm` the spectral radiance there.
-    pub radiance: f64,
-    /// Wavelength in nanometres that `radiance` is meant at; then equal to the frame's `render.wavelength_nm`.
-    pub wavelength_nm: Option<f64>,
+impl LightingSpec {
+    /// File of the image of the surroundings, as written in the configuration.
+    #[must_use]
+    pub fn image(&self) -> Option<&Path> {
+        match &self.environment {
+            Some(EnvironmentSpec::Image { image, .. }) => Some(image),
+            _ => None,
+        }
+    }
+}
+
+/// Light of the surroundings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum EnvironmentSpec {
+    /// The same from every direction.
+    Uniform {
+        /// Radiance with the spectrum of D65, R = G = B = this; with `wavelength_nm` the spectral radiance there.
+        radiance: f64,
+        /// Wavelength in nanometres that `radiance` is meant at; then equal to the frame's `render.wavelength_nm`.
+        wavelength_nm: Option<f64>,
+    },
+    /// That of an equirectangular image.
+    Image {
+        /// Path as written in the configuration, relative to the current folder.
+        image: PathBuf,
+        /// Factor on its values, above 0.
+        scale: f64,
+        /// Heading in degrees that its centre shows.
+        rotation_deg: f64,
+    },
 }
 
 /// A disc of even radiance in the sky.
@@ -286,7 +310,7 @@ pub struct SunSpec {
     pub elevation_deg: f64,
     /// Direction towards the sun as a heading, in degrees.
     pub azimuth_deg: f64,
-    /// Irradiance on a plane normal to the beam; spectrum as [`EnvironmentSpec::radiance`].
+    /// Irradiance on a plane normal to the beam; spectrum as the radiance of [`EnvironmentSpec::Uniform`].
     pub irradiance: f64,
     /// Angular diameter in degrees, 0 (parallel beam) to 10.
     pub angular_diameter_deg: f64,

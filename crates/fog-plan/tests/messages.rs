@@ -341,6 +341,42 @@ fn luminance_of_one() {
 }
 
 #[test]
+fn images_of_the_surroundings() {
+    let with = |environment: &str| {
+        let lighting = format!("lighting: {{environment: {environment}}}");
+        errors_with(&format!("{}fog: none\n", HEAD.replace("lighting: day", &lighting)), &[])
+    };
+    assert_eq!(
+        with("{}"),
+        [
+            "configs/x.yaml:4:25: lighting.environment.radiance: missing; radiance of the surroundings, 0 or more; or image, \
+          the path of an equirectangular image"
+        ]
+    );
+    assert_eq!(
+        with("{image: a.exr, radiance: 1, scale: 0}"),
+        [
+            "configs/x.yaml:4:50: lighting.environment.radiance: not with lighting.environment.image, which says the radiance",
+            "configs/x.yaml:4:60: lighting.environment.scale: 0 is out of range; valid: above 0 up to 1000000000000"
+        ]
+    );
+    assert_eq!(
+        with("{radiance: 1, rotation_deg: 90}"),
+        ["configs/x.yaml:4:53: lighting.environment.rotation_deg: only with lighting.environment.image"]
+    );
+    assert_eq!(
+        with("{image: a.exr, rotation_deg: 400}"),
+        [
+            "configs/x.yaml:4:54: lighting.environment.rotation_deg: 400 deg is out of range; valid: -360 to 360 deg"
+        ]
+    );
+    assert_eq!(
+        with("{image: ''}"),
+        ["configs/x.yaml:4:33: lighting.environment.image: empty; the path of an equirectangular image"]
+    );
+}
+
+#[test]
 fn lights_at_a_wavelength() {
     let head = HEAD.replace("lighting: day", "lighting: {environment: {radiance: 1, wavelength_nm: 550}}");
     assert_eq!(

@@ -20,6 +20,7 @@ pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, T
 pub use texture::{Encoding, Filter, Image, Texture, Wrap};
 pub use triangle::{SurfacePoint, Triangle, offset_origin};
 pub use uv_transform::UvTransform;
+pub mod atmosphere;
 pub mod bsdf;
 pub mod camera;
 pub mod emitters;
@@ -29,3 +30,4 @@ pub mod light;
 pub mod medium;
 pub mod phase;
 pub mod scene;
+pub mod sky_map;

@@ -1,7 +1,9 @@
-//! What shines: a uniform environment, a sun, and the emitting triangles of the scene.
+//! What shines from far away: a uniform environment, and a sun. Surroundings with structure are a
+//! [`SkyMap`](crate::sky_map::SkyMap).
 //!
 //! Radiance is relative to D65 (`fog_core::colour`): a scalar is the same at every wavelength.
 
+use fog_core::bands::BandSpectrum;
 use fog_core::warp;
 use fog_core::{Vec3A, math};
 
@@ -19,6 +21,8 @@ pub struct Sun {
     pub direction: Vec3A,
     /// Irradiance on a plane normal to the beam, relative to D65.
     pub irradiance: f32,
+    /// Factor on the irradiance by wavelength: 1 for the spectrum of D65.
+    pub colour: BandSpectrum,
     /// 1 − cos of the disc's half-angle; 0 for a parallel beam.
     pub one_minus_cos: f32,
 }
@@ -40,8 +44,15 @@ impl Sun {
         Self {
             direction: direction.normalize(),
             irradiance: irradiance as f32,
+            colour: BandSpectrum::ONE,
             one_minus_cos: (2.0 * s * s) as f32,
         }
+    }
+
+    /// The same sun in another colour: a factor on its irradiance by wavelength.
+    #[must_use]
+    pub fn with_colour(self, colour: BandSpectrum) -> Self {
+        Self { colour, ..self }
     }
 
     /// True if the sun is a parallel beam, which no ray can hit by chance.
@@ -51,7 +62,7 @@ impl Sun {
         self.one_minus_cos == 0.0
     }
 
-    /// Relative radiance of the disc: irradiance / (π sin² α).
+    /// Relative radiance of the disc where its colour is 1: irradiance / (π sin² α).
     #[inline]
     #[must_use]
     pub fn radiance(&self) -> f32 {

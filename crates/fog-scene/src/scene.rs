@@ -9,6 +9,7 @@ use crate::lamp_tree::LampTree;
 use crate::light::{Environment, Sun};
 use crate::material::AlphaMode;
 use crate::medium::Medium;
+use crate::sky_map::SkyMap;
 use crate::triangle::SurfacePoint;
 use fog_core::colour::{Rgb, upsample};
 use fog_core::spectrum::Spectrum;
@@ -24,6 +25,8 @@ pub struct Scene {
     pub medium: Option<Medium>,
     /// Uniform environment, if any.
     pub environment: Option<Environment>,
+    /// Surroundings with structure, if any; they shine beside the uniform ones.
+    pub sky: Option<SkyMap>,
     /// Sun, if any.
     pub sun: Option<Sun>,
     emitters: Emitters,
@@ -71,6 +74,7 @@ impl Scene {
             loaded,
             medium,
             environment,
+            sky: None,
             sun,
             emitters,
             lamps: LampTree::default(),
@@ -83,8 +87,15 @@ impl Scene {
         scene
     }
 
+    /// The same scene under this sky.
+    #[must_use]
+    pub fn with_sky(mut self, sky: Option<SkyMap>) -> Self {
+        self.sky = sky;
+        self
+    }
+
     /// The same scene where the relative radiance 1 stands for a luminance of `cd_m2`, above 0: what the scene file gives in
-    /// cd/m², cd and lx is divided by it. Environment and sun are relative already.
+    /// cd/m², cd and lx is divided by it. Environment, sky and sun are relative already.
     #[must_use]
     pub fn with_luminance_of_one(mut self, cd_m2: f64) -> Self {
         self.of_one_nit = (1.0 / cd_m2) as f32;

@@ -17,7 +17,8 @@ impl PathTracer<'_> {
     #[must_use]
     pub fn analog_radiance(&self, ray: Ray, wavelength_nm: f32, rng: &mut PathRng) -> f32 {
         let wavelengths = Wavelengths::monochromatic(wavelength_nm);
-        let basis = self.observer.lane_basis(&wavelengths);
+        let lanes = self.lanes(&wavelengths);
+        let basis = lanes.basis;
         let (mut origin, mut direction) = (ray.origin, ray.direction);
         let mut sum = 0.0;
         let mut beta = 1.0;
@@ -80,10 +81,12 @@ impl PathTracer<'_> {
                 let local = warp::spherical(1.0 - m, sin, math::TAU_F32 * rng.uniform());
                 direction = (warp::frame(direction) * local).normalize();
             } else {
-                // Out of the scene: the environment and the sun's disc.
+                // Out of the scene: the environment, the sky and the sun's disc.
                 sum += beta * self.scene.environment.map_or(0.0, |e| e.radiance);
+                let sky = self.scene.sky.as_ref();
+                sum += beta * sky.map_or(0.0, |sky| sky.radiance(direction, lanes.sky())[0]);
                 let sun = self.scene.sun.filter(|s| s.contains(direction));
-                return sum + beta * sun.map_or(0.0, |s| s.radiance());
+                return sum + beta * sun.map_or(0.0, |s| s.radiance() * lanes.sun[0]);
             }
             if self.settings.max_depth.is_some_and(|max| edges >= max) || beta == 0.0 {
                 return sum;

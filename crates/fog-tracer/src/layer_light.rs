@@ -41,10 +41,12 @@ pub(crate) struct LayerLight {
     nm: Vec<f64>,
     /// q at the edges of the cells, \[edge\]\[wavelength, and the middle between it and the next\].
     q: Vec<f32>,
-    /// Radiance of the sky.
+    /// Mean radiance of the sky.
     sky: f64,
     /// Share of the light that the scene returns to the fog.
     returned: f64,
+    /// True if all that V leaves to find begins at surfaces or at lamps among them.
+    lit_from_below: bool,
 }
 
 /// A path's wavelengths in the tables, and its constants.
@@ -58,9 +60,9 @@ pub(crate) struct LayerLanes {
 }
 
 impl LayerLight {
-    /// The solution of a scene under its uniform sky, or in the dark; `None` where the fog is not one that it solves.
+    /// The solution of a scene under its sky, or in the dark; `None` where the fog is not one that it solves.
     pub(crate) fn new(scene: &Scene, medium: &MediumView<'_>, observer: &Observer) -> Option<Self> {
-        let sky = scene.environment.map_or(0.0, |e| f64::from(e.radiance));
+        let sky = scene.environment.map_or(0.0, |e| e.radiance) + scene.sky.as_ref().map_or(0.0, |s| s.mean());
         let profile = medium.profile;
         if profile.least_albedo() < LEAST_ALBEDO {
             return None;
@@ -85,7 +87,9 @@ impl LayerLight {
             }
         }
         let returned = returned_share(scene, observer);
-        Some(Self { base_y, cells_per_m: CELLS as f64 / height, nm, q, sky, returned })
+        let lit_from_below = scene.sun.is_none() && scene.sky.is_none() && scene.beams().is_empty();
+        let (sky, cells_per_m) = (f64::from(sky), CELLS as f64 / height);
+        Some(Self { base_y, cells_per_m, nm, q, sky, returned, lit_from_below })
     }
 
     /// Finds a path's wavelengths.
@@ -135,9 +139,13 @@ impl LayerLight {
     }
 
     /// Light that a path there may still find of what begins at the base, over that at the base: falls linearly in q to
-    /// what is left at the top. For choices that must not depend on the path's wavelengths.
+    /// what is left at the top. 1 where light also comes from above. For choices that must not depend on the path's
+    /// wavelengths.
     #[inline]
     pub(crate) fn worth(&self, y: f64, up: f32) -> f32 {
+        if !self.lit_from_below {
+            return 1.0;
+        }
         let columns = 2 * self.nm.len() - 1;
         let x = ((y - self.base_y) * self.cells_per_m).clamp(0.0, CELLS as f64 - 1.0);
         let middle = columns / 2;

@@ -1,8 +1,9 @@
 //! Choosing a light for next-event estimation.
 //!
-//! The uniform environment is not among them: to connect to a light that shines alike from everywhere one would draw the
+//! The sky is among them where it has structure. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
 //! direction from the phase function or the BSDF, and that is what continuing the path does.
 
+use crate::path::Lanes;
 use fog_core::Vec3A;
 use fog_core::colour::upsample;
 use fog_core::random::PathRng;
@@ -19,10 +20,11 @@ const LEAST_SHARE: f32 = 0.1;
 /// Distance at which the strongest lamp says what light of lamps is faint, in metres.
 const LAMP_LEVEL_M: f32 = 100.0;
 
-/// Probabilities of aiming at the sun, the emitters, the lamps and the beams; what they leave is no connection at all.
+/// Probabilities of aiming at the sun, the sky, the emitters, the lamps and the beams; what they leave is no connection at all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMix {
     sun: f32,
+    sky: f32,
     emitters: f32,
     lamps: f32,
     beams: f32,
@@ -53,9 +55,9 @@ impl LightSample {
 
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let (sun, emitters) = (scene.sun.is_some(), !scene.emitters().is_empty());
+        let (sun, sky, emitters) = (scene.sun.is_some(), scene.sky.is_some(), !scene.emitters().is_empty());
         let (lamps, beams) = (!scene.lamps().lamps().is_empty(), !scene.beams().is_empty());
-        let kinds = [sun, emitters, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
+        let kinds = [sun, sky, emitters, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
         let share = 1.0 / kinds.iter().sum::<f32>().max(1.0);
         let small = (FULL_SHARE_M2 / scene.emitters().area_m2()).clamp(LEAST_SHARE, 1.0);
         // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
@@ -64,9 +66,12 @@ impl LightMix {
         let lamp_level = strongest(&mut scene.lamps().lamps().iter().map(|l| l.strength()))
             / (LAMP_LEVEL_M * LAMP_LEVEL_M * core::f32::consts::PI);
         let beam_level = strongest(&mut scene.beams().iter().map(|b| b.strength())) / core::f32::consts::PI;
-        let level = sun_level.max(if emitters { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
+        let sky_level = scene.sky.as_ref().map_or(0.0, |sky| sky.mean());
+        let level =
+            sun_level.max(sky_level).max(if emitters { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
+            sky: if sky { share } else { 0.0 },
             emitters: if emitters { share * small } else { 0.0 },
             lamps: if lamps { share } else { 0.0 },
             beams: if beams { share } else { 0.0 },
@@ -76,12 +81,17 @@ impl LightMix {
 
     #[inline]
     pub(crate) fn any(&self) -> bool {
-        self.sun + self.emitters + self.lamps + self.beams > 0.0
+        self.sun + self.sky + self.emitters + self.lamps + self.beams > 0.0
     }
 
     #[inline]
     pub(crate) fn sun_probability(&self) -> f32 {
         self.sun
+    }
+
+    #[inline]
+    pub(crate) fn sky_probability(&self) -> f32 {
+        self.sky
     }
 
     #[inline]
@@ -107,7 +117,7 @@ impl LightMix {
         &self,
         scene: &Scene,
         from: Vec3A,
-        basis: &[Spectrum; 3],
+        lanes: &Lanes,
         rng: &mut PathRng,
     ) -> Option<LightSample> {
         if !self.any() {
@@ -120,14 +130,27 @@ impl LightMix {
             return Some(LightSample {
                 direction: sun.sample(rng.uniform2()),
                 distance: f32::INFINITY,
-                radiance: Spectrum::splat(value),
+                radiance: lanes.sun * value,
                 pdf: if beam { self.sun } else { self.sun * sun.pdf() },
                 beam,
                 lamp: None,
             });
         }
-        if pick >= self.sun + self.emitters {
-            return self.without_extent(scene, from, pick - (self.sun + self.emitters), basis, rng);
+        let pick = pick - self.sun;
+        if let Some(sky) = scene.sky.as_ref().filter(|_| pick < self.sky) {
+            let sample = sky.sample([rng.uniform_f64(), rng.uniform_f64()], lanes.sky());
+            return Some(LightSample {
+                direction: sample.direction,
+                distance: f32::INFINITY,
+                radiance: sample.radiance,
+                pdf: self.sky * sample.pdf,
+                beam: false,
+                lamp: None,
+            });
+        }
+        let pick = pick - self.sky;
+        if pick >= self.emitters {
+            return self.without_extent(scene, from, pick - self.emitters, &lanes.basis, rng);
         }
         let point = scene.emitters().sample(rng.uniform(), rng.uniform2())?;
         let offset = point.position - from;
@@ -143,7 +166,7 @@ impl LightMix {
         Some(LightSample {
             direction,
             distance,
-            radiance: upsample(rgb, basis),
+            radiance: upsample(rgb, &lanes.basis),
             pdf: self.emitters * point.pdf_area * distance * distance / cos,
             beam: false,
             lamp: None,

@@ -17,6 +17,7 @@ use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
 use crate::watch::{FlightEnd, Step, Watch, Weights};
+use fog_core::bands::BandLanes;
 use fog_core::colour::Observer;
 use fog_core::profile::ProfileLanes;
 use fog_core::random::PathRng;
@@ -27,6 +28,7 @@ use fog_scene::camera::Ray;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
+use fog_scene::sky_map::SkyLanes;
 
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
@@ -77,9 +79,18 @@ pub(crate) struct Path {
 /// What the wavelengths of a path need to be looked up.
 pub(crate) struct Lanes {
     pub(crate) basis: [Spectrum; 3],
+    pub(crate) bands: BandLanes,
+    /// Colour of the sun.
+    pub(crate) sun: Spectrum,
     pub(crate) medium: Option<MediumLanes>,
     /// In the layer's own light; `None` where paths do not use it.
     layer: Option<LayerLanes>,
+}
+
+impl Lanes {
+    pub(crate) fn sky(&self) -> SkyLanes<'_> {
+        SkyLanes { basis: &self.basis, bands: &self.bands }
+    }
 }
 
 /// What ends a flight.
@@ -96,7 +107,8 @@ impl<'a> PathTracer<'a> {
         let medium = scene.medium.as_ref().map(|m| m.view());
         let all = Wavelengths::monochromatic(550.0);
         let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
-        let roulette_below = if scene.environment.is_some() { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
+        let surrounded = scene.environment.is_some() || scene.sky.is_some();
+        let roulette_below = if surrounded { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
         let lights = LightMix::new(scene);
         let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
         Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below, layer_light }
@@ -127,11 +139,7 @@ impl<'a> PathTracer<'a> {
         rng: &mut PathRng,
         watch: &mut impl Watch,
     ) -> PathRadiance {
-        let lanes = Lanes {
-            basis: self.observer.lane_basis(wavelengths),
-            medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
-            layer: self.layer_lanes(wavelengths),
-        };
+        let lanes = self.lanes(wavelengths);
         let mut path = Path::new(ray.origin, ray.direction);
         let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
         let mut u = f64::from(first_flight);
@@ -151,7 +159,7 @@ impl<'a> PathTracer<'a> {
             let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
-                    let sum = self.escape(&path);
+                    let sum = self.escape(&path, &lanes);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
                     let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
@@ -204,6 +212,19 @@ impl<'a> PathTracer<'a> {
                 return out;
             }
             u = rng.uniform_f64();
+        }
+    }
+
+    /// What the wavelengths of a path need to be looked up.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, wavelengths: &Wavelengths) -> Lanes {
+        let bands = BandLanes::new(wavelengths);
+        Lanes {
+            basis: self.observer.lane_basis(wavelengths),
+            bands,
+            sun: self.scene.sun.as_ref().map_or(Spectrum::ONE, |sun| bands.gather(&sun.colour.0)),
+            medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
+            layer: self.layer_lanes(wavelengths),
         }
     }
 
@@ -299,16 +320,21 @@ impl<'a> PathTracer<'a> {
         sum
     }
 
-    /// Light of the environment and the sun's disc that a path which leaves the scene meets.
+    /// Light of the environment, the sky and the sun's disc that a path which leaves the scene meets.
     #[inline(always)]
-    fn escape(&self, path: &Path) -> Spectrum {
+    fn escape(&self, path: &Path, lanes: &Lanes) -> Spectrum {
         let mut sum = Spectrum::ZERO;
         if let Some(environment) = &self.scene.environment {
             sum += path.beta * (environment.radiance / path.r_u.mean());
         }
+        if let Some(sky) = &self.scene.sky {
+            let (radiance, pdf) = sky.radiance_and_pdf(path.direction, lanes.sky());
+            let pdf = if path.depth == 0 { 0.0 } else { self.lights.sky_probability() * pdf };
+            sum += path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
+        }
         if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
-            sum += path.beta * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+            sum += path.beta * lanes.sun * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
         }
         sum
     }

@@ -119,7 +119,7 @@ pub enum Step {
     },
     /// Left the scene.
     Escape {
-        /// What the path adds to the sum: environment and disc of the sun.
+        /// What the path adds to the sum: environment, sky and disc of the sun.
         added: Spectrum,
     },
     /// Chose a point of the last flight by its nearness to a lamp; the connection that follows starts there.
@@ -133,7 +133,7 @@ pub enum Step {
     Connection {
         /// To the light.
         direction: Vec3A,
-        /// In metres; infinite to the sun.
+        /// In metres; infinite to sun and sky.
         distance_m: f32,
         /// Radiance of the light, or irradiance of a light without extent.
         radiance: Spectrum,

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use fog_dataset::{PlanFrame, picture_path, read_header, read_picture, read_plan};
-use fog_film::{Comparison, DeltaE, Scale, psnr_db};
+use fog_film::{Comparison, DeltaE, Picture, Scale, psnr_db};
 
 use crate::Error;
+use crate::reference::Reference;
 
 /// Two pictures from files, compared.
 #[derive(Clone, Debug)]
@@ -18,11 +19,12 @@ pub struct Compared {
 }
 
 /// Compares picture A with the reference B (see [`fog_dataset::read_picture`] and [`fog_film::compare`]). `exposure` takes
-/// the place of what the files say.
+/// the place of what the files say. With `blocks` above 1 the means over blocks of so many pixels squared are compared
+/// ([`fog_film::Picture::blocks`]).
 ///
 /// # Errors
 /// If a file is no picture, the sizes differ, or an exposure is given and no picture holds radiance.
-pub fn compare_pictures(a: &Path, b: &Path, exposure: Option<f32>) -> Result<Compared, Error> {
+pub fn compare_pictures(a: &Path, b: &Path, exposure: Option<f32>, blocks: u32) -> Result<Compared, Error> {
     let mut pictures = [read_picture(a)?, read_picture(b)?];
     let mut exposed = false;
     for picture in &mut pictures {
@@ -36,18 +38,25 @@ pub fn compare_pictures(a: &Path, b: &Path, exposure: Option<f32>) -> Result<Com
         let reason = "an exposure was given, but both are sRGB pictures, whose exposure is done";
         return Err(incomparable(reason.to_owned()));
     }
+    // Pictures that cannot be compared stay as they are, so that messages are about the files.
+    let size = |picture: &Picture| picture.check().ok().map(|()| [picture.width, picture.height]);
+    if blocks > 1 && size(&pictures[0]).is_some_and(|a| size(&pictures[1]) == Some(a)) {
+        pictures = pictures.map(|picture| picture.blocks(blocks));
+    }
     let comparison =
         fog_film::compare(&pictures[0], &pictures[1]).map_err(|e| incomparable(e.to_string()))?;
     Ok(Compared { scales: pictures.map(|p| p.scale), comparison })
 }
 
 /// Which frames of two data sets belong together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Matching {
     /// Those of the same id: the same frame of two versions of the program, say.
     Id,
     /// Those of the same pair id, which differ in fog alone. Where B has several of them, its clear one (`fog: none`).
     PairId,
+    /// Those of the same pair id; in B only frames that this is true of.
+    Reference(Reference),
 }
 
 /// A frame of A and its partner in B.
@@ -84,7 +93,7 @@ pub struct MatchedFrames {
 ///
 /// # Errors
 /// If a folder is no data set, or not one frame can be compared; the message says why.
-pub fn match_frames(a: &Path, b: &Path, matching: Matching) -> Result<MatchedFrames, Error> {
+pub fn match_frames(a: &Path, b: &Path, matching: &Matching) -> Result<MatchedFrames, Error> {
     let plans = [plan_of(a)?, plan_of(b)?];
     let same_folder = a.canonicalize().ok() == b.canonicalize().ok();
     let mut matched = MatchedFrames::default();
@@ -94,7 +103,7 @@ pub fn match_frames(a: &Path, b: &Path, matching: Matching) -> Result<MatchedFra
         let found = partners.find(frame);
         if let Ok(i) = found {
             used[i] = true;
-            if same_folder && matching == Matching::PairId && plans[1][i].id == frame.id {
+            if same_folder && *matching != Matching::Id && plans[1][i].id == frame.id {
                 continue;
             }
         }
@@ -114,7 +123,7 @@ pub fn match_frames(a: &Path, b: &Path, matching: Matching) -> Result<MatchedFra
             Err(reason) => matched.left_out.push(LeftOut { side: 'A', id: frame.id.clone(), reason }),
         }
     }
-    if matching == Matching::Id {
+    if *matching == Matching::Id {
         let alone = plans[1].iter().zip(used).filter(|(_, used)| !used);
         let reason = "A has no frame of this id".to_owned();
         matched.left_out.extend(alone.map(|(f, _)| LeftOut {
@@ -125,7 +134,8 @@ pub fn match_frames(a: &Path, b: &Path, matching: Matching) -> Result<MatchedFra
     }
     if matched.pairs.is_empty() {
         let why = matched.left_out.first().map_or(String::new(), |l| format!(" ({}: {})", l.id, l.reason));
-        let hint = if matching == Matching::Id { "; frames that differ in fog match by pair id" } else { "" };
+        let hint =
+            if *matching == Matching::Id { "; frames that differ in fog match by pair id" } else { "" };
         let reason = format!("not one frame of A has a partner in B{why}{hint}");
         return Err(Error::Incomparable { a: a.to_path_buf(), b: b.to_path_buf(), reason });
     }
@@ -139,16 +149,20 @@ fn plan_of(dir: &Path) -> Result<Vec<PlanFrame>, Error> {
 
 /// The frames of B by what they are matched by.
 struct Partners<'a> {
-    matching: Matching,
+    matching: &'a Matching,
     plan: &'a [PlanFrame],
     places: HashMap<&'a str, Vec<usize>>,
 }
 
 impl<'a> Partners<'a> {
-    fn of(plan: &'a [PlanFrame], matching: Matching) -> Self {
+    fn of(plan: &'a [PlanFrame], matching: &'a Matching) -> Self {
         let mut places: HashMap<&str, Vec<usize>> = HashMap::new();
         for (i, frame) in plan.iter().enumerate() {
-            if let Some(key) = key(frame, matching) {
+            let wanted = match matching {
+                Matching::Reference(reference) => reference.is_true_of(&frame.spec),
+                Matching::Id | Matching::PairId => true,
+            };
+            if wanted && let Some(key) = key(frame, matching) {
                 places.entry(key).or_default().push(i);
             }
         }
@@ -163,6 +177,13 @@ impl<'a> Partners<'a> {
             (_, &[one]) => Ok(one),
             (Matching::Id, _) => Err("B has no frame of this id".to_owned()),
             (Matching::PairId, []) => Err(format!("B has no frame of its pair {key}")),
+            (Matching::Reference(reference), []) => {
+                Err(format!("B has no frame of its pair {key} with {reference}"))
+            }
+            (Matching::Reference(reference), several) => {
+                let n = several.len();
+                Err(format!("B has {n} frames of its pair {key} with {reference}; one is needed"))
+            }
             (Matching::PairId, several) => {
                 let clear = |&&i: &&usize| self.plan[i].spec["fog"]["model"] == "none";
                 let n = several.len();
@@ -173,10 +194,10 @@ impl<'a> Partners<'a> {
     }
 }
 
-fn key(frame: &PlanFrame, matching: Matching) -> Option<&str> {
+fn key<'f>(frame: &'f PlanFrame, matching: &Matching) -> Option<&'f str> {
     match matching {
         Matching::Id => Some(&frame.id),
-        Matching::PairId => frame.pair_id.as_deref(),
+        Matching::PairId | Matching::Reference(_) => frame.pair_id.as_deref(),
     }
 }
 

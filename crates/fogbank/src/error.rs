@@ -14,6 +14,9 @@ pub enum Error {
     /// A fog cannot be made.
     #[error("{0}")]
     Fog(String),
+    /// A light cannot be made.
+    #[error("{0}")]
+    Lighting(String),
     /// The optics table cannot be built.
     #[error(transparent)]
     Optics(#[from] fog_optics::error::OpticsError),
@@ -38,7 +41,7 @@ pub enum Error {
         /// Why not.
         reason: String,
     },
-    /// A file that fogs are read from is another than when the data set was begun.
+    /// A file that fogs or lights are read from is another than when the data set was begun.
     #[error(
         "{} holds frames made from another content of {file} (such as {frame}); use another folder or the old file",
         dir.display()

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::fog::Fog;
-use crate::lighting::lights;
+use crate::lighting::{DistantLights, distant_lights};
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
@@ -46,14 +46,15 @@ pub(crate) fn settings(spec: &FrameSpec) -> Settings {
 /// Scene of a frame, with its fog.
 ///
 /// # Errors
-/// If the scene or the fog cannot be had.
+/// If the scene, the fog or the lights cannot be had.
 pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<Fog>), Error> {
     let loaded = resources.scene(spec.scene.as_ref().map(|s| s.file.as_path()))?;
     let fog = Fog::new(&spec.fog, resources)?;
-    let (environment, sun) = lights(&spec.lighting);
+    let DistantLights { environment, sky, sun } = distant_lights(&spec.lighting, resources)?;
     let medium = fog.as_ref().map(|f| f.medium.clone());
     let scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
-        .with_luminance_of_one(spec.lighting.luminance_of_one_cd_m2);
+        .with_luminance_of_one(spec.lighting.luminance_of_one_cd_m2)
+        .with_sky(sky);
     Ok((scene, fog))
 }
 
@@ -73,6 +74,9 @@ pub fn render_frame(
     let frame =
         fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
             .ok_or(Error::Cancelled)?;
-    let record = record(spec, fog.as_ref(), &scene, &camera, &frame, config_digest);
+    let mut record = record(spec, fog.as_ref(), &scene, &camera, &frame, config_digest);
+    if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
+        record["lighting"]["environment"]["blake3"] = hash.into();
+    }
     Ok(Rendered { frame, record, camera })
 }

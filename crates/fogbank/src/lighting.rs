@@ -1,15 +1,32 @@
 //! Lights of a frame from its specification.
 
-use fog_plan::LightingSpec;
+use crate::error::Error;
+use crate::resources::Resources;
+use fog_plan::{EnvironmentSpec, LightingSpec};
 use fog_scene::light::{Environment, Sun};
+use fog_scene::sky_map::SkyMap;
 
-/// Environment and sun in the tracer's units: radiance relative to D65, which a scalar already is.
-pub(crate) fn lights(spec: &LightingSpec) -> (Option<Environment>, Option<Sun>) {
-    let environment =
-        spec.environment.filter(|e| e.radiance > 0.0).map(|e| Environment { radiance: e.radiance as f32 });
+/// Light from far away in the tracer's units: radiance relative to D65, which a scalar already is.
+pub(crate) struct DistantLights {
+    pub(crate) environment: Option<Environment>,
+    pub(crate) sky: Option<SkyMap>,
+    pub(crate) sun: Option<Sun>,
+}
+
+/// Environment, sky and sun of a frame.
+///
+/// # Errors
+/// If an image cannot be had.
+pub(crate) fn distant_lights(spec: &LightingSpec, resources: &Resources) -> Result<DistantLights, Error> {
+    let environment = match spec.environment {
+        Some(EnvironmentSpec::Uniform { radiance, .. }) if radiance > 0.0 => {
+            Some(Environment { radiance: radiance as f32 })
+        }
+        _ => None,
+    };
     let sun = spec
         .sun
         .filter(|s| s.irradiance > 0.0)
         .map(|s| Sun::new(s.elevation_deg, s.azimuth_deg, s.irradiance, s.angular_diameter_deg));
-    (environment, sun)
+    Ok(DistantLights { environment, sky: resources.surroundings().image(spec)?, sun })
 }

@@ -4,6 +4,7 @@ use crate::droplets::Spectrum;
 use crate::error::Error;
 use crate::progress::{Event, Progress};
 use crate::sources::{DropletSource, Sources};
+use crate::surroundings::Surroundings;
 use crate::table_cache::TableCache;
 use crate::tables::Tables;
 use crate::text_files::TextFiles;
@@ -25,6 +26,7 @@ pub struct Resources {
     /// Colour matching and upsampling.
     pub observer: Observer,
     sources: Sources,
+    surroundings: Surroundings,
     tables: Tables,
     scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
     empty: Arc<LoadedScene>,
@@ -37,6 +39,7 @@ impl Resources {
         Self {
             observer: Observer::new(),
             sources: Sources::default(),
+            surroundings: Surroundings::default(),
             tables: Tables::new(cache),
             scenes: HashMap::new(),
             empty: Arc::new(LoadedScene::default()),
@@ -47,6 +50,7 @@ impl Resources {
     /// fails the frames that need it ([`crate::scene`]), so that others can go on.
     pub fn prepare(&mut self, spec: &FrameSpec, progress: &dyn Progress) {
         self.prepare_fog(&spec.fog, progress);
+        self.surroundings.prepare(&spec.lighting);
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
         {
@@ -100,6 +104,11 @@ impl Resources {
     /// Why it could not be had.
     pub fn model(&self, fog: &FogSpec) -> Result<&AdvectionModel, Error> {
         self.sources.model(fog)
+    }
+
+    /// Images and skies around scenes.
+    pub(crate) fn surroundings(&self) -> &Surroundings {
+        &self.surroundings
     }
 
     /// Text files that fogs are read from.

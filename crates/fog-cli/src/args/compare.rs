@@ -1,12 +1,13 @@
 //! Arguments of `compare`.
 
 use clap::Args as ClapArgs;
+use fogbank::Reference;
 use std::path::PathBuf;
 
 const HELP: &str = "\
 A is measured against the reference B. Pictures are OpenEXR (R, G, B or Y: linear radiance), PNG \
 or JPEG (sRGB). Data sets are folders that `fogbank sweep` made; their frames are matched by id, \
-or with --pair by pair id.
+or with --pair or --reference by pair id.
 
 Figures:
   ΔE2000        CIEDE2000 (Sharma, Wu & Dalal 2005) of each pixel as it is shown: exposure x
@@ -22,6 +23,7 @@ Figures:
                 `standard_error.Y` (the output `standard_error` of a configuration). With an
                 rms of 1 or less noise explains them; it is less where samples are stratified.
 If a picture is PNG or JPEG, figures of radiance are of the linear values that a display shows.
+With --blocks all figures are of the blocks' mean linear values.
 The means over a data set are means of the figures; its PSNR is that of the mean square error.
 
 Examples:
@@ -29,6 +31,7 @@ Examples:
   fogbank compare shot.png golden.png --fail-above 0.5   exit code 1 if the mean is above 0.5
   fogbank compare out/new out/old --json                 the same frames of two data sets
   fogbank compare out/fog out/fog --pair --out maps      foggy frames against their clear ones
+  fogbank compare out/fog out/fog --reference fog.phase=mie   every fog against the one with Mie scattering
 
 Exit codes: 0 compared, 1 above --fail-above, 2 they cannot be compared.";
 
@@ -52,6 +55,13 @@ pub(crate) struct CompareArgs {
     /// Match the frames of data sets by pair id, fog against clear; if B has several of a pair, its frame without fog.
     #[arg(long)]
     pub(crate) pair: bool,
+    /// Match the frames of data sets by pair id, against those frames of B whose resolved configuration has this value,
+    /// as fog.model=advection; A and B may be the same folder.
+    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "pair")]
+    pub(crate) reference: Option<Reference>,
+    /// Compare means over blocks of N x N pixels, so that noise does not hide a difference.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) blocks: u32,
     /// Print one JSON object; infinite figures are null.
     #[arg(long)]
     pub(crate) json: bool,

@@ -15,7 +15,10 @@ use std::process::ExitCode;
 pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode> {
     match (args.a.is_dir(), args.b.is_dir()) {
         (true, true) => data_sets(args),
-        (false, false) if args.pair => bail!("--pair is for data sets, but A and B are no folders"),
+        (false, false) if args.pair || args.reference.is_some() => {
+            let option = if args.pair { "--pair" } else { "--reference" };
+            bail!("{option} is for data sets, but A and B are no folders")
+        }
         (false, false) => pictures(args),
         (folder, _) => {
             // If one is not there at all, that is the mistake.
@@ -43,8 +46,12 @@ fn pictures(args: &CompareArgs) -> Result<ExitCode> {
 }
 
 fn data_sets(args: &CompareArgs) -> Result<ExitCode> {
-    let matching = if args.pair { Matching::PairId } else { Matching::Id };
-    let matched = match_frames(&args.a, &args.b, matching)?;
+    let matching = match &args.reference {
+        Some(reference) => Matching::Reference(reference.clone()),
+        None if args.pair => Matching::PairId,
+        None => Matching::Id,
+    };
+    let matched = match_frames(&args.a, &args.b, &matching)?;
     if let Some(dir) = &args.out {
         std::fs::create_dir_all(dir).with_context(|| format!("cannot create {}", dir.display()))?;
     }
@@ -71,7 +78,8 @@ fn data_sets(args: &CompareArgs) -> Result<ExitCode> {
         let all = json!({
             "a": args.a.display().to_string(),
             "b": args.b.display().to_string(),
-            "matched_by": if args.pair { "pair_id" } else { "id" },
+            "matched_by": if matching == Matching::Id { "id" } else { "pair_id" },
+            "reference": args.reference.as_ref().map(|reference| reference.to_string()),
             "frames": frames.collect::<Vec<_>>(),
             "means": report::means_json(&rows),
             "left_out": left_out.collect::<Vec<_>>(),
@@ -89,7 +97,7 @@ fn data_sets(args: &CompareArgs) -> Result<ExitCode> {
 
 /// Compares two pictures and writes the map; of the comparison only the figures are kept.
 fn one(args: &CompareArgs, a: &Path, b: &Path, map: Option<&Path>) -> Result<Row> {
-    let mut compared = compare_pictures(a, b, args.exposure.map(|e| e as f32))?;
+    let mut compared = compare_pictures(a, b, args.exposure.map(|e| e as f32), args.blocks)?;
     let scale = args.scale.unwrap_or_else(|| compared.comparison.map_scale());
     if let Some(path) = map {
         let picture = compared.comparison.map_picture(scale);

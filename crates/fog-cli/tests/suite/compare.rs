@@ -157,6 +157,47 @@ fn fog_against_clear() {
 }
 
 #[test]
+fn fogs_against_one_of_them() {
+    let dir = folder(
+        "fog: {model: homogeneous, height_m: 60, sigma_t_1_m: 0.1, phase: {hg: 0.5}}\noutputs: [hdr, \
+         standard_error]\nsweep: {axes: {fog.phase.hg: [0, 0.5, 0.9], camera.altitude_m: [2, 30]}}\n",
+    );
+    let at = dir.path();
+    render(at, "out", 1, 16);
+    render(at, "again", 2, 16);
+    let ids = ids(&at.join("out"));
+    let c = compared(at, &["out", "out", "--reference", "fog.phase.hg=0.5"]);
+    let pairs = |c: &Value| -> Vec<[String; 2]> {
+        let frames = c["frames"].as_array().unwrap().iter();
+        frames.map(|f| ["id", "id_b"].map(|key| f[key].as_str().unwrap().to_owned())).collect()
+    };
+    let want = |places: &[[usize; 2]]| -> Vec<[String; 2]> {
+        places.iter().map(|place| place.map(|i| ids[i].clone())).collect()
+    };
+    assert_eq!(pairs(&c), want(&[[0, 2], [1, 3], [4, 2], [5, 3]]));
+    assert_eq!((&c["matched_by"], &c["left_out"]), (&json("\"pair_id\""), &json("[]")));
+    assert_eq!(c["reference"], "fog.phase.hg=0.5");
+    // Between folders the reference has a partner too; there only noise differs, which blocks lessen.
+    let fine = compared(at, &["out", "again", "--reference", "fog.phase.hg=0.5"]);
+    assert_eq!(pairs(&fine), want(&[[0, 2], [1, 3], [2, 2], [3, 3], [4, 2], [5, 3]]));
+    let coarse = compared(at, &["out", "again", "--reference", "fog.phase.hg=0.5", "--blocks", "4"]);
+    let noise = |c: &Value| c["frames"][2]["relative_mse"].as_f64().unwrap();
+    assert_eq!((&coarse["frames"][2]["width"], &coarse["frames"][2]["height"]), (&json("6"), &json("4")));
+    assert!(noise(&coarse) < noise(&fine) / 8.0, "{} {}", noise(&coarse), noise(&fine));
+    let z = coarse["frames"][2]["z_scores"]["rms"].as_f64().unwrap();
+    assert!((0.4..1.6).contains(&z), "standard errors are those of the blocks: {z}");
+
+    for (value, part) in [
+        ("camera.altitude_m=2", "3 frames of its pair"),
+        ("fog.model=advection", "with fog.model=advection"),
+        ("fog.model", "expected KEY=VALUE"),
+    ] {
+        let refused = run(&["compare", "out", "out", "--reference", value], at);
+        assert!(refused.code == Some(2) && refused.stderr.contains(part), "{}", refused.stderr);
+    }
+}
+
+#[test]
 fn mistakes() {
     let dir = folder("fog: none\n");
     let at = dir.path();
@@ -186,6 +227,11 @@ fn mistakes() {
         ),
         (vec!["out", "out", "--pair"], vec!["not one frame of A has a partner in B"]),
         (vec!["small.png", "small.png", "--pair"], vec!["--pair is for data sets"]),
+        (
+            vec!["small.png", "small.png", "--reference", "fog.model=none"],
+            vec!["--reference is for data sets"],
+        ),
+        (vec!["small.png", "large.png", "--blocks", "2"], vec!["A has 2 x 3 pixels, B has 4 x 3"]),
         (vec!["small.png", "small.png", "--exposure", "2"], vec!["both are sRGB pictures"]),
         (vec!["small.png", "small.png", "--out", "no/map.png"], vec!["cannot write no/map.png"]),
         (vec!["small.png", "small.png", "--scale", "0"], vec!["--scale", "above 0"]),

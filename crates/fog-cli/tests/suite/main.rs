@@ -20,5 +20,6 @@ mod phases;
 mod pipes;
 mod records;
 mod replay;
+mod skies;
 mod visibility;
 mod visibility_laws;

@@ -65,7 +65,7 @@ impl Default for LightingMap {
     }
 }
 
-/// Uniform light from every direction.
+/// Uniform light from every direction, or that of an image.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Environment")]
@@ -75,6 +75,19 @@ pub(crate) struct EnvironmentFile {
     #[schemars(range(min = ranges::RADIANCE.min, max = ranges::RADIANCE.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) radiance: Option<f64>,
+    /// In place of `radiance`: an image of the whole sphere (equirectangular; OpenEXR, Radiance HDR, PNG or JPEG), relative to
+    /// the current folder. Its centre shows north (−Z), headings grow to the right, its top is the zenith. Its values are
+    /// radiance in linear sRGB.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) image: Option<String>,
+    /// Factor on the values of `image`. Absent: 1.
+    #[schemars(range(min = ranges::SCALE.min, max = ranges::SCALE.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) scale: Option<f64>,
+    /// Heading in degrees that the centre of `image` shows. Absent: 0.
+    #[schemars(range(min = ranges::HEADING_DEG.min, max = ranges::HEADING_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) rotation_deg: Option<f64>,
     /// The wavelength that `radiance` is meant at, in nanometres: equal to render.wavelength_nm.
     #[schemars(range(min = ranges::WAVELENGTH_NM.min, max = ranges::WAVELENGTH_NM.max))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -36,12 +36,41 @@ impl Check<'_> {
     }
 
     fn environment(&mut self, file: &EnvironmentFile, rendered_nm: Option<f64>) -> Option<EnvironmentSpec> {
+        if let Some(image) = &file.image {
+            return self.environment_image(file, image);
+        }
+        for (key, value) in [("scale", file.scale), ("rotation_deg", file.rotation_deg)] {
+            if value.is_some() {
+                self.problem(&format!("lighting.environment.{key}"), "only with lighting.environment.image");
+            }
+        }
         let path = "lighting.environment.radiance";
-        let radiance = self.required(path, file.radiance, "radiance of the surroundings, 0 or more");
+        let why = "radiance of the surroundings, 0 or more; or image, the path of an equirectangular image";
+        let radiance = self.required(path, file.radiance, why);
         let radiance = radiance.and_then(|radiance| self.range(path, radiance, ranges::RADIANCE));
         let path = "lighting.environment.wavelength_nm";
         let wavelength = self.wavelength(path, file.wavelength_nm, rendered_nm);
-        Some(EnvironmentSpec { radiance: radiance?, wavelength_nm: wavelength? })
+        Some(EnvironmentSpec::Uniform { radiance: radiance?, wavelength_nm: wavelength? })
+    }
+
+    fn environment_image(&mut self, file: &EnvironmentFile, image: &str) -> Option<EnvironmentSpec> {
+        let mut alone = true;
+        for (key, value) in [("radiance", file.radiance), ("wavelength_nm", file.wavelength_nm)] {
+            if value.is_some() {
+                let message = "not with lighting.environment.image, which says the radiance";
+                self.problem(&format!("lighting.environment.{key}"), message);
+                alone = false;
+            }
+        }
+        if image.is_empty() {
+            self.problem("lighting.environment.image", "empty; the path of an equirectangular image");
+            return None;
+        }
+        let scale = self.optional("lighting.environment.scale", file.scale, ranges::SCALE);
+        let rotation =
+            self.optional("lighting.environment.rotation_deg", file.rotation_deg, ranges::HEADING_DEG);
+        let (scale, rotation) = (scale?.unwrap_or(1.0), rotation?.unwrap_or(0.0));
+        alone.then(|| EnvironmentSpec::Image { image: image.into(), scale, rotation_deg: rotation })
     }
 
     fn sun(&mut self, file: &SunFile, rendered_nm: Option<f64>) -> Option<SunSpec> {
@@ -91,7 +120,7 @@ impl Check<'_> {
 
 /// The numbers behind a preset.
 fn preset_lighting(preset: Preset) -> LightingSpec {
-    let environment = |radiance| Some(EnvironmentSpec { radiance, wavelength_nm: None });
+    let environment = |radiance| Some(EnvironmentSpec::Uniform { radiance, wavelength_nm: None });
     match preset {
         Preset::Day => LightingSpec {
             preset: Some("day"),

@@ -20,7 +20,7 @@ impl PathTracer<'_> {
         rng: &mut PathRng,
         watch: &mut impl Watch,
     ) -> Spectrum {
-        let Some(light) = self.lights.sample(self.scene, path.origin, &lanes.basis, rng) else {
+        let Some(light) = self.lights.sample(self.scene, path.origin, lanes, rng) else {
             return Spectrum::ZERO;
         };
         let value = lobe.value(light.direction);
@@ -46,7 +46,7 @@ impl PathTracer<'_> {
         watch: &mut impl Watch,
     ) -> Spectrum {
         let Some(bsdf) = &s.bsdf else { return Spectrum::ZERO };
-        let Some(light) = self.lights.sample(self.scene, s.point.position, &lanes.basis, rng) else {
+        let Some(light) = self.lights.sample(self.scene, s.point.position, lanes, rng) else {
             return Spectrum::ZERO;
         };
         let to_local = s.world_from_shading.transpose();

@@ -138,7 +138,7 @@ impl Replayed {
         } else if distance_m.is_infinite() {
             writeln!(
                 f,
-                "looks for light in the sun's disc, towards {}, density {density:.4e} 1/sr",
+                "looks for light of sun or sky, towards {}, density {density:.4e} 1/sr",
                 along(*direction)
             )?;
         } else {
