@@ -4,6 +4,7 @@ mod analog;
 mod droplets;
 mod furnace;
 mod lamps;
+mod layer_light;
 mod materials;
 mod materials_rendered;
 mod noise;

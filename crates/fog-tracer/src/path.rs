@@ -39,6 +39,9 @@ const ROULETTE_BELOW_SKY: f32 = 0.3;
 /// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
 const ROULETTE_BELOW: f32 = 1.0;
 
+/// Largest f32 below 1.
+const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
+
 /// A scene prepared for tracing paths.
 #[derive(Debug)]
 pub struct PathTracer<'a> {
@@ -211,7 +214,7 @@ impl<'a> PathTracer<'a> {
             if !goes_on || !survives_roulette(&mut path, below, rng, watch) {
                 return out;
             }
-            u = rng.uniform_f64();
+            u = rng.flight();
         }
     }
 
@@ -411,7 +414,8 @@ impl Path {
 pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
     let Some(bsdf) = &surface.bsdf else { return false };
     let wo = surface.world_from_shading.transpose() * -path.direction;
-    let Some(sample) = bsdf.sample(wo, rng.uniform(), rng.uniform2()) else { return false };
+    let (u, v) = rng.turn();
+    let Some(sample) = bsdf.sample(wo, rng.uniform(), [(u as f32).min(BELOW_ONE), v]) else { return false };
     let direction = (surface.world_from_shading * sample.wi).normalize();
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return false;
