@@ -5,6 +5,7 @@ mod droplets;
 mod furnace;
 mod lamps;
 mod layer_light;
+mod light_groups;
 mod materials;
 mod materials_rendered;
 mod noise;

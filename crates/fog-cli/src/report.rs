@@ -24,8 +24,10 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
         paths += fogbank::path_count(&frame);
         most += fogbank::most_paths(&frame);
         let sensor = &frame.sensor;
-        bytes +=
-            fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, fogbank::output_set(&frame));
+        // The rest is a group too.
+        let groups = frame.lighting.groups.len() + 1;
+        let outputs = fogbank::output_set(&frame);
+        bytes += fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, outputs, groups);
     }
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
     writeln!(out, "{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" })?;

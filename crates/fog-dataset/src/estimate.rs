@@ -2,13 +2,13 @@
 
 use crate::OutputSet;
 
-/// Rough size of a frame's files in bytes, for a plan's estimate.
+/// Rough size of a frame's files in bytes, for a plan's estimate; `groups` is the number of layers of light groups.
 ///
 /// Bytes per pixel are what RGB test frames of walls and ground at 16 samples took (tests in `tests/suite/sizes.rs`),
 /// rounded up: noisy radiance in f32 hardly compresses, truth channels do where surfaces are even, equal counts of samples
 /// to nearly nothing. Mono frames take less.
 #[must_use]
-pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet) -> u64 {
+pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet, groups: usize) -> u64 {
     let per_pixel = [
         (outputs.image, 2.0),
         (outputs.hdr, 12.0),
@@ -16,6 +16,7 @@ pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet) -> u64 {
         (outputs.airlight, 11.0),
         (outputs.standard_error, 4.0),
         (outputs.samples, 0.1),
+        (outputs.groups, 12.0 * groups as f64),
         (outputs.depth, 2.5),
         (outputs.distance, 3.4),
         (outputs.transmittance, 10.0),

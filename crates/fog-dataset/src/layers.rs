@@ -29,6 +29,11 @@ pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f3
         // Whole numbers up to 1 000 000: exact in f32.
         out.push((SAMPLES.to_owned(), frame.samples.iter().map(|&n| n as f32).collect()));
     }
+    if outputs.groups {
+        for group in &frame.groups {
+            out.extend(colour(frame, &format!("group.{}.", group.name), |i| group.radiance[i]));
+        }
+    }
     out
 }
 

@@ -9,7 +9,7 @@
 //! | `config.resolved.yaml` | the configuration with every default written out |
 //! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
 //! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
-//! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`; mono frames `Y` |
+//! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
 //! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
 //! | `<id>.json` | the frame's record |
 //! | `<id>.timing.json` | seconds: the only file that differs between two runs |

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Error, Result};
 
-/// The outputs of a frame, by the names of the configuration's `outputs`; as JSON the list of their names.
+/// The outputs of a frame, by the names of the configuration's `outputs`, and `groups` where it has groups of lights; as JSON the list of their names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<String>", into = "Vec<&'static str>")]
 pub struct OutputSet {
@@ -28,11 +28,13 @@ pub struct OutputSet {
     pub standard_error: bool,
     /// Number of samples.
     pub samples: bool,
+    /// The radiance by groups of lights.
+    pub groups: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 11] = [
         "image",
         "hdr",
         "depth",
@@ -43,6 +45,7 @@ impl OutputSet {
         "airlight",
         "standard_error",
         "samples",
+        "groups",
     ];
 
     /// Every output.
@@ -79,7 +82,7 @@ impl OutputSet {
     /// Whether an `.hdr.exr` belongs to the frame.
     #[must_use]
     pub fn wants_hdr_file(self) -> bool {
-        self.hdr || self.direct || self.airlight || self.standard_error || self.samples
+        self.hdr || self.direct || self.airlight || self.standard_error || self.samples || self.groups
     }
 
     /// Whether a `.gt.exr` belongs to the frame.
@@ -100,6 +103,7 @@ impl OutputSet {
             "airlight" => &mut self.airlight,
             "standard_error" => &mut self.standard_error,
             "samples" => &mut self.samples,
+            "groups" => &mut self.groups,
             _ => return None,
         })
     }

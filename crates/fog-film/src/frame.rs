@@ -2,7 +2,7 @@
 
 use fog_core::colour::{Rgb, luminance};
 
-use crate::{FrameError, PixelFilm, srgb8};
+use crate::{Films, FrameError, PixelFilm, srgb8};
 
 /// What the three values of a pixel mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +29,15 @@ pub struct Truth {
     pub tau: Vec<f32>,
 }
 
+/// The light of a group of lights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupLayer {
+    /// The group's name.
+    pub name: String,
+    /// Mean radiance, direct light and airlight together.
+    pub radiance: Vec<Rgb>,
+}
+
 /// A rendered frame: row-major, row 0 at the top, every channel width × height long.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -46,6 +55,8 @@ pub struct Frame {
     pub airlight: Vec<Rgb>,
     /// Standard error of the luminance of the image, per pixel.
     pub standard_error: Vec<f32>,
+    /// The image once more, by groups of lights; they add up to it but for rounding. Empty where none were told apart.
+    pub groups: Vec<GroupLayer>,
     /// Truth channels.
     pub truth: Truth,
 }
@@ -70,10 +81,22 @@ impl Frame {
             direct: pixels.iter().map(PixelFilm::direct).collect(),
             airlight: pixels.iter().map(PixelFilm::airlight).collect(),
             standard_error: pixels.iter().map(|p| p.luminance().standard_error() as f32).collect(),
+            groups: Vec::new(),
             truth,
         };
         frame.check()?;
         Ok(frame)
+    }
+
+    /// The frame with the light of groups of lights, as many as `films` has sums of.
+    ///
+    /// # Errors
+    /// As [`Frame::check`].
+    pub fn with_groups(mut self, names: Vec<String>, films: &Films) -> Result<Self, FrameError> {
+        let layer = |(i, name)| GroupLayer { name, radiance: films.group(i) };
+        self.groups = names.into_iter().enumerate().map(layer).collect();
+        self.check()?;
+        Ok(self)
     }
 
     /// Number of pixels, width × height.
@@ -101,7 +124,10 @@ impl Frame {
             ("distance_m", self.truth.distance_m.len()),
             ("transmittance", self.truth.transmittance.len()),
             ("tau", self.truth.tau.len()),
-        ] {
+        ]
+        .into_iter()
+        .chain(self.groups.iter().map(|g| ("groups", g.radiance.len())))
+        {
             if found != expected {
                 return Err(FrameError::Shape { channel, width, height, expected, found });
             }

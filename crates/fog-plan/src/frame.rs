@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use crate::droplets::{DropletsSpec, VerticalSpec};
+use crate::{
+    droplets::{DropletsSpec, VerticalSpec},
+    light_groups::{LightGroupSpec, is_one},
+};
 
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -268,6 +271,9 @@ pub struct LightingSpec {
     /// Luminance in cd/m² that the radiance 1 stands for in the scene file; left out of records where it is 1.
     #[serde(skip_serializing_if = "is_one")]
     pub luminance_of_one_cd_m2: f64,
+    /// Groups of lights whose light is told apart; left out of records where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<LightGroupSpec>,
 }
 
 impl LightingSpec {
@@ -366,9 +372,4 @@ pub enum Output {
     StandardError,
     /// Number of samples of each pixel.
     Samples,
-}
-
-/// For values that records leave out where they are 1.
-fn is_one(value: &f64) -> bool {
-    *value == 1.0
 }

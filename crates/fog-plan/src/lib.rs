@@ -19,6 +19,7 @@ mod fill;
 mod fog_sources;
 mod frame;
 mod identity;
+mod light_groups;
 mod load;
 mod node;
 mod origin;
@@ -38,6 +39,7 @@ pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
 pub use plan::{AxisSummary, Plan};

@@ -63,6 +63,7 @@ pub(crate) const IMAGE_PX: Range = Range::closed(1.0, 16_384.0);
 pub(crate) const FOV_DEG: Range = Range::closed(0.1, 170.0);
 pub(crate) const EXPOSURE: Range = Range::above(0.0, 1e9);
 pub(crate) const RADIANCE: Range = Range::closed(0.0, 1e12);
+pub(crate) const INTENSITY: Range = Range::closed(0.0, 1e6);
 pub(crate) const SCALE: Range = Range::above(0.0, 1e12);
 pub(crate) const LUMINANCE_CD_M2: Range = Range::closed(1e-6, 1e9);
 pub(crate) const ELEVATION_DEG: Range = Range::closed(-90.0, 90.0);

@@ -341,6 +341,44 @@ fn luminance_of_one() {
 }
 
 #[test]
+fn light_groups() {
+    let groups = |groups: &str| {
+        let lighting = format!("lighting: {{groups: {groups}}}");
+        errors_with(&format!("{}fog: none\n", HEAD.replace("lighting: day", &lighting)), &[])
+    };
+    assert_eq!(
+        groups("[{name: sky, lights: [sun, enviroment]}, {name: rest, lights: [sun]}]"),
+        [
+            "configs/x.yaml:4:47: lighting.groups.0.lights.1: \"enviroment\" is no light; expected one of environment, sun, \
+             lamps, directional, emitters, node:NAME, material:NAME; did you mean `environment`?",
+            "configs/x.yaml:4:68: lighting.groups.1.name: `rest` is taken: it is the group of all lights that belong to no \
+             other",
+        ]
+    );
+    assert_eq!(
+        groups("[{name: a b, lights: []}, {lights: [\"node:\"], intensity: -1}]"),
+        [
+            "configs/x.yaml:4:28: lighting.groups.0.name: \"a b\" is not a name of a group: use 1 to 32 letters, digits, `_` \
+             and `-`",
+            "configs/x.yaml:4:41: lighting.groups.0.lights: empty; name at least one light",
+            "configs/x.yaml:4:46: lighting.groups.1.name: missing; a name for the layer, such as sun",
+            "configs/x.yaml:4:56: lighting.groups.1.lights.0: \"node:\" is no light; expected one of environment, sun, lamps, \
+             directional, emitters, node:NAME, material:NAME",
+            "configs/x.yaml:4:77: lighting.groups.1.intensity: -1 is out of range; valid: 0 to 1000000",
+        ]
+    );
+    assert_eq!(
+        groups("[{name: a, lights: [sun]}, {name: a, lights: [lamps]}]"),
+        ["configs/x.yaml:4:54: lighting.groups.1.name: \"a\" is named twice"]
+    );
+    let many = vec!["{name: a, lights: [sun]}"; 33].join(", ");
+    assert_eq!(
+        groups(&format!("[{many}]")),
+        ["configs/x.yaml:4:20: lighting.groups: 33 groups are too many; at most 32"]
+    );
+}
+
+#[test]
 fn images_of_the_surroundings() {
     let with = |environment: &str| {
         let lighting = format!("lighting: {{environment: {environment}}}");

@@ -336,3 +336,36 @@ fn a_noise_target_has_a_limit_and_without_one_nothing_is_new() {
     let swept = plan("sweep: {axes: {render.noise: [0.1, 0.05]}}\n");
     assert_eq!(stop(&swept), Some((0.1, 8192)));
 }
+
+#[test]
+fn light_groups_are_part_of_a_frame_only_where_there_are_some() {
+    let json = |lighting: &str| {
+        let plan = plan(&format!("lighting: {lighting}\n"));
+        let frame = frames(&plan).remove(0);
+        (serde_json::to_value(&frame.lighting).expect("JSON"), frame.digest)
+    };
+    let (plain, digest) = json("{environment: {radiance: 1}}");
+    assert!(plain.get("groups").is_none());
+    assert_eq!(json("{environment: {radiance: 1}, groups: []}").1, digest);
+    let (grouped, other) = json(
+        "{groups: [{name: a, lights: [sun, \"node:x*\"]}, {name: b, lights: [directional, \"material:y\"], intensity: 2}]}",
+    );
+    assert_ne!(other, digest);
+    assert_eq!(
+        grouped["groups"],
+        serde_json::json!([
+            {"name": "a", "lights": ["sun", "node:x*"]},
+            {"name": "b", "lights": ["directional", "material:y"], "intensity": 2.0}
+        ])
+    );
+}
+
+#[test]
+fn intensities_of_groups_are_axes() {
+    let plan = plan(
+        "lighting: {environment: {radiance: 1}, groups: [{name: sky, lights: [environment]}]}\n\
+         sweep: {axes: {lighting.groups.0.intensity: [0.5, 1]}}\n",
+    );
+    let intensities: Vec<_> = frames(&plan).iter().map(|f| f.lighting.groups[0].intensity).collect();
+    assert_eq!(intensities, [0.5, 1.0]);
+}

@@ -64,6 +64,11 @@ impl Emitters {
         self.triangles.is_empty()
     }
 
+    /// The emitting triangles: ids in the geometry.
+    pub fn triangles(&self) -> impl Iterator<Item = u32> {
+        self.triangles.iter().map(|t| t.triangle)
+    }
+
     /// Area of all emitting triangles together, in m².
     #[must_use]
     pub fn area_m2(&self) -> f32 {

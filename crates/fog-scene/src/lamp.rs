@@ -45,6 +45,15 @@ pub struct PunctualLights {
     pub beams: Vec<Beam>,
 }
 
+/// Names of the nodes of [`PunctualLights`], in the same order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LightNames {
+    /// Of the lamps.
+    pub lamps: Vec<String>,
+    /// Of the beams.
+    pub beams: Vec<String>,
+}
+
 impl PunctualLights {
     /// True if there are none.
     #[must_use]

@@ -27,6 +27,7 @@ pub mod emitters;
 pub mod lamp;
 pub mod lamp_tree;
 pub mod light;
+pub mod light_groups;
 pub mod medium;
 pub mod phase;
 pub mod scene;

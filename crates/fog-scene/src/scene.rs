@@ -7,6 +7,7 @@ use crate::gltf_load::LoadedScene;
 use crate::lamp::{Beam, Lamp};
 use crate::lamp_tree::LampTree;
 use crate::light::{Environment, Sun};
+use crate::light_groups::{Grouping, LightGroups, LightSource};
 use crate::material::AlphaMode;
 use crate::medium::Medium;
 use crate::sky_map::SkyMap;
@@ -34,6 +35,10 @@ pub struct Scene {
     beams: Vec<Beam>,
     /// Relative radiance of 1 cd/m² in the scene file.
     of_one_nit: f32,
+    grouping: Option<Grouping>,
+    /// Groups of the lamps and beams that shine.
+    lamp_groups: Vec<usize>,
+    beam_groups: Vec<usize>,
 }
 
 /// A surface point seen from a ray, ready for shading.
@@ -69,7 +74,7 @@ impl Scene {
         sun: Option<Sun>,
         scene_emitters: bool,
     ) -> Self {
-        let emitters = if scene_emitters { find_emitters(&loaded) } else { Emitters::default() };
+        let emitters = if scene_emitters { find_emitters(&loaded, None) } else { Emitters::default() };
         let mut scene = Self {
             loaded,
             medium,
@@ -80,6 +85,9 @@ impl Scene {
             lamps: LampTree::default(),
             beams: Vec::new(),
             of_one_nit: 1.0,
+            grouping: None,
+            lamp_groups: Vec::new(),
+            beam_groups: Vec::new(),
         };
         if scene_emitters {
             scene.light_lamps();
@@ -105,14 +113,97 @@ impl Scene {
         self
     }
 
+    /// The same scene with its lights in groups, each as bright as its group says.
+    #[must_use]
+    pub fn with_light_groups(mut self, groups: LightGroups) -> Self {
+        let grouping = Grouping::new(groups, &self.loaded);
+        let intensity = |group| grouping.groups.intensity(group);
+        if let Some(environment) = &mut self.environment {
+            environment.radiance *= intensity(grouping.environment);
+        }
+        let factor = intensity(grouping.environment);
+        self.sky = self.sky.filter(|_| factor > 0.0).map(|sky| sky.scaled(f64::from(factor)));
+        if let Some(sun) = &mut self.sun {
+            sun.irradiance *= intensity(grouping.sun);
+        }
+        let even = (0..grouping.groups.names().len()).all(|group| intensity(group) == 1.0);
+        if !(even || self.emitters.is_empty()) {
+            self.emitters = find_emitters(&self.loaded, Some(&grouping));
+        }
+        self.grouping = Some(grouping);
+        if !(self.lamps.lamps().is_empty() && self.beams.is_empty()) {
+            self.light_lamps();
+        }
+        self
+    }
+
+    /// The groups of its lights, if they are told apart.
+    #[must_use]
+    pub fn light_groups(&self) -> Option<&LightGroups> {
+        self.grouping.as_ref().map(|g| &g.groups)
+    }
+
+    /// Group of a light: the position of its name among [`LightGroups::names`]; 0 where there are no groups.
+    #[must_use]
+    pub fn light_group(&self, source: LightSource) -> usize {
+        let Some(grouping) = &self.grouping else { return 0 };
+        match source {
+            LightSource::Environment => grouping.environment,
+            LightSource::Sun => grouping.sun,
+            LightSource::Lamp(lamp) => self.lamp_groups[lamp],
+            LightSource::Beam(beam) => self.beam_groups[beam],
+            LightSource::Emitter(triangle) => {
+                let triangle = &self.loaded.geometry.triangles()[triangle as usize];
+                grouping.of_surface(triangle.object, triangle.material)
+            }
+        }
+    }
+
+    /// Number of lights that shine in each group: environment, sun, lamps, beams and emitting triangles. Empty where there are
+    /// no groups.
+    #[must_use]
+    pub fn light_counts(&self) -> Vec<usize> {
+        let Some(grouping) = &self.grouping else { return Vec::new() };
+        let mut counts = vec![0; grouping.groups.names().len()];
+        let single = [
+            self.environment.map(|_| LightSource::Environment),
+            self.sky.as_ref().map(|_| LightSource::Environment),
+            self.sun.map(|_| LightSource::Sun),
+        ];
+        let emitters = self.emitters.triangles().map(LightSource::Emitter);
+        let lamps = (0..self.lamp_groups.len()).map(LightSource::Lamp);
+        let beams = (0..self.beam_groups.len()).map(LightSource::Beam);
+        for source in single.into_iter().flatten().chain(emitters).chain(lamps).chain(beams) {
+            counts[self.light_group(source)] += 1;
+        }
+        counts
+    }
+
     fn light_lamps(&mut self) {
-        let scale = self.of_one_nit;
         let lights = &self.loaded.lights;
-        self.lamps = LampTree::new(
-            lights.lamps.iter().map(|l| Lamp { intensity: l.intensity.map(|c| c * scale), ..*l }),
-        );
-        let beams = lights.beams.iter().map(|b| Beam { illuminance: b.illuminance.map(|c| c * scale), ..*b });
-        self.beams = beams.filter(|b| b.strength() > 0.0).collect();
+        let group = |of: fn(&Grouping) -> &[usize], i: usize| self.grouping.as_ref().map_or(0, |g| of(g)[i]);
+        let scale = |group: usize| {
+            self.of_one_nit * self.grouping.as_ref().map_or(1.0, |g| g.groups.intensity(group))
+        };
+        let lamps = lights.lamps.iter().enumerate().map(|(i, lamp)| {
+            let group = group(|g| &g.lamps, i);
+            (Lamp { intensity: lamp.intensity.map(|c| c * scale(group)), ..*lamp }, group)
+        });
+        let (lamps, lamp_groups): (Vec<_>, _) = lamps.filter(|(lamp, _)| lamp.strength() > 0.0).unzip();
+        let beams = lights.beams.iter().enumerate().map(|(i, beam)| {
+            let group = group(|g| &g.beams, i);
+            (Beam { illuminance: beam.illuminance.map(|c| c * scale(group)), ..*beam }, group)
+        });
+        let (beams, beam_groups) = beams.filter(|(beam, _)| beam.strength() > 0.0).unzip();
+        (self.lamps, self.lamp_groups) = (LampTree::new(lamps), lamp_groups);
+        (self.beams, self.beam_groups) = (beams, beam_groups);
+    }
+
+    /// Relative radiance of 1 cd/m² of a surface.
+    #[inline]
+    fn of_one_nit(&self, object: u32, material: u32) -> f32 {
+        let Some(grouping) = &self.grouping else { return self.of_one_nit };
+        self.of_one_nit * grouping.groups.intensity(grouping.of_surface(object, material))
     }
 
     /// Points and spots of the scene file, relative; none when they are switched off.
@@ -205,7 +296,8 @@ impl Scene {
         surface.bsdf = Some(if clear > 0.0 { bsdf.beside_clear(clear.min(LARGEST_CLEAR)) } else { bsdf });
         if !self.emitters.is_empty() && (front || material.double_sided) {
             let share = values.coat_transmittance(cos) / (1.0 - clear.min(LARGEST_CLEAR));
-            surface.emission = upsample(values.emission, basis) * (share * self.of_one_nit);
+            let of_one_nit = self.of_one_nit(point.object, point.material);
+            surface.emission = upsample(values.emission, basis) * (share * of_one_nit);
         }
         surface
     }
@@ -229,7 +321,8 @@ impl Scene {
                 * coat.coat_transmittance(point.shading_normal.dot(direction).abs());
             rgb = rgb.map(|c| c * share);
         }
-        (rgb.map(|c| c * self.of_one_nit), point.geometric_normal)
+        let of_one_nit = self.of_one_nit(point.object, point.material);
+        (rgb.map(|c| c * of_one_nit), point.geometric_normal)
     }
 }
 
@@ -243,7 +336,7 @@ fn tangent_frame(point: &SurfacePoint, tangent: Option<[f32; 4]>) -> Option<Mat3
 }
 
 /// All triangles whose material emits, with their power up to a common factor.
-fn find_emitters(loaded: &LoadedScene) -> Emitters {
+fn find_emitters(loaded: &LoadedScene, grouping: Option<&Grouping>) -> Emitters {
     let all = loaded.geometry.triangles();
     let mut triangles = Vec::new();
     for (id, triangle) in all.iter().enumerate() {
@@ -262,11 +355,13 @@ fn find_emitters(loaded: &LoadedScene) -> Emitters {
                 sum += f64::from(rgb.iter().sum::<f32>() * coverage);
             }
         }
+        let group = |g: &Grouping| g.groups.intensity(g.of_surface(triangle.object, triangle.material));
+        let intensity = f64::from(grouping.map_or(1.0, group));
         let sides = if material.double_sided { 2.0 } else { 1.0 };
         triangles.push(EmitterTriangle {
             triangle: id as u32,
             corners: triangle.positions.map(Vec3A::from),
-            power: sum * sides * f64::from(triangle.area()),
+            power: sum * sides * f64::from(triangle.area()) * intensity,
         });
     }
     Emitters::new(triangles, all.len())

@@ -62,7 +62,8 @@ pub(crate) struct LayerLanes {
 impl LayerLight {
     /// The solution of a scene under its sky, or in the dark; `None` where the fog is not one that it solves.
     pub(crate) fn new(scene: &Scene, medium: &MediumView<'_>, observer: &Observer) -> Option<Self> {
-        let sky = scene.environment.map_or(0.0, |e| e.radiance) + scene.sky.as_ref().map_or(0.0, |s| s.mean());
+        let sky =
+            scene.environment.map_or(0.0, |e| e.radiance) + scene.sky.as_ref().map_or(0.0, |s| s.mean());
         let profile = medium.profile;
         if profile.least_albedo() < LEAST_ALBEDO {
             return None;
@@ -109,7 +110,8 @@ impl LayerLight {
         // The sky's radiance at the top, the returned share of what goes down at the base: in the mean over directions.
         let (e, back) = (EXTRAPOLATION, self.returned);
         let ratio = (1.0 - back) / (e + back * 2.0 / 3.0);
-        lanes.a = self.q(f64::INFINITY, &lanes).map(|q| (self.sky / (1.0 + ratio * (f64::from(q) + e))) as f32);
+        lanes.a =
+            self.q(f64::INFINITY, &lanes).map(|q| (self.sky / (1.0 + ratio * (f64::from(q) + e))) as f32);
         lanes.b = lanes.a * ratio as f32;
         lanes
     }
@@ -176,7 +178,8 @@ fn returned_share(scene: &Scene, observer: &Observer) -> f64 {
         let (sin_phi, cos_phi) = math::sin_cos_turns(turn);
         let mut path = Path::new(start, Vec3A::new(sin * cos_phi, -cos.max(1e-3), sin * sin_phi));
         for _ in 0..PROBE_TURNS {
-            let Some(hit) = scene.scatterer(path.origin, path.direction, f32::INFINITY, rng.next_u64()) else {
+            let Some(hit) = scene.scatterer(path.origin, path.direction, f32::INFINITY, rng.next_u64())
+            else {
                 sum += f64::from(path.beta[0]);
                 break;
             };

@@ -5,6 +5,7 @@
 
 mod analog;
 mod equiangular;
+mod groups;
 mod layer_light;
 mod lights;
 mod lobe;

@@ -10,6 +10,7 @@ use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
 use fog_scene::Hit;
 use fog_scene::lamp_tree::Receiver;
+use fog_scene::light_groups::LightSource;
 use fog_scene::scene::Scene;
 
 /// Emitters of up to this area together are always aimed at: they are hard to run into.
@@ -40,11 +41,16 @@ pub(crate) struct LightSample {
     /// Density in 1/sr including the choice of the light; the probability of the choice for a light without extent.
     pub(crate) pdf: f32,
     pub(crate) beam: bool,
-    /// Index of the lamp, if it is one.
-    pub(crate) lamp: Option<usize>,
+    pub(crate) source: LightSource,
 }
 
 impl LightSample {
+    /// Index of the lamp, if it is one.
+    #[inline]
+    pub(crate) fn lamp(&self) -> Option<usize> {
+        if let LightSource::Lamp(lamp) = self.source { Some(lamp) } else { None }
+    }
+
     /// Density of light sampling plus that of running into the light by chance (`scattering`, 1/sr).
     #[inline]
     pub(crate) fn density(&self, scattering: Spectrum) -> Spectrum {
@@ -133,7 +139,7 @@ impl LightMix {
                 radiance: lanes.sun * value,
                 pdf: if beam { self.sun } else { self.sun * sun.pdf() },
                 beam,
-                lamp: None,
+                source: LightSource::Sun,
             });
         }
         let pick = pick - self.sun;
@@ -145,7 +151,7 @@ impl LightMix {
                 radiance: sample.radiance,
                 pdf: self.sky * sample.pdf,
                 beam: false,
-                lamp: None,
+                source: LightSource::Environment,
             });
         }
         let pick = pick - self.sky;
@@ -169,7 +175,7 @@ impl LightMix {
             radiance: upsample(rgb, &lanes.basis),
             pdf: self.emitters * point.pdf_area * distance * distance / cos,
             beam: false,
-            lamp: None,
+            source: LightSource::Emitter(point.triangle),
         })
     }
 
@@ -190,15 +196,15 @@ impl LightMix {
         if pick >= self.lamps + self.beams || count == 0 {
             return None;
         }
-        let index = (rng.uniform() * count as f32) as usize;
-        let beam = &scene.beams()[index.min(count - 1)];
+        let index = ((rng.uniform() * count as f32) as usize).min(count - 1);
+        let beam = &scene.beams()[index];
         Some(LightSample {
             direction: beam.direction,
             distance: f32::INFINITY,
             radiance: upsample(beam.illuminance, basis),
             pdf: self.beams / count as f32,
             beam: true,
-            lamp: None,
+            source: LightSource::Beam(index),
         })
     }
 }
@@ -224,6 +230,6 @@ pub(crate) fn lamp_light(
         radiance: upsample(lamp.intensity, basis) * share,
         pdf: probability,
         beam: true,
-        lamp: Some(index),
+        source: LightSource::Lamp(index),
     })
 }

@@ -25,6 +25,7 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
+use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::{Scene, Surface};
@@ -162,7 +163,7 @@ impl<'a> PathTracer<'a> {
             let goes_on = match event {
                 Event::Escape => {
                     self.pass(&mut path, &lanes, f64::INFINITY);
-                    let sum = self.escape(&path, &lanes);
+                    let sum = self.escape(&path, &lanes, watch);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
                     let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
@@ -176,6 +177,7 @@ impl<'a> PathTracer<'a> {
                     let sum = self.emitted(&path, &hit, &surface);
                     let expected = self.layer_beside(&path, &lanes, f64::from(surface.point.position.y));
                     watch.see(|| Step::surface(&hit, &surface, sum));
+                    watch.light(LightSource::Emitter(hit.triangle), sum);
                     out.radiance += sum;
                     self.may_scatter(&path, watch) && {
                         out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
@@ -325,19 +327,25 @@ impl<'a> PathTracer<'a> {
 
     /// Light of the environment, the sky and the sun's disc that a path which leaves the scene meets.
     #[inline(always)]
-    fn escape(&self, path: &Path, lanes: &Lanes) -> Spectrum {
+    fn escape(&self, path: &Path, lanes: &Lanes, watch: &mut impl Watch) -> Spectrum {
         let mut sum = Spectrum::ZERO;
         if let Some(environment) = &self.scene.environment {
             sum += path.beta * (environment.radiance / path.r_u.mean());
+            watch.light(LightSource::Environment, sum);
         }
         if let Some(sky) = &self.scene.sky {
             let (radiance, pdf) = sky.radiance_and_pdf(path.direction, lanes.sky());
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sky_probability() * pdf };
-            sum += path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
+            let light = path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
+            watch.light(LightSource::Environment, light);
+            sum += light;
         }
         if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
-            sum += path.beta * lanes.sun * (sun.radiance() / (path.r_u + path.r_l * pdf).mean());
+            let density = (path.r_u + path.r_l * pdf).mean();
+            let light = path.beta * lanes.sun * (sun.radiance() / density);
+            watch.light(LightSource::Sun, light);
+            sum += light;
         }
         sum
     }

@@ -1,13 +1,14 @@
 //! The tile scheduler: pixels in parallel, each a function of (scene, camera, settings, seed) alone.
 
+use crate::groups::GroupLight;
 use crate::path::{PathRadiance, PathTracer};
 use crate::rounds::{Round, next_round};
 use crate::settings::Settings;
 use crate::truth::truth;
 use fog_core::colour::{Observer, Rgb};
 use fog_core::random::{PathRng, stratified};
-use fog_core::spectrum::{LANES, Wavelengths};
-use fog_film::{Channels, Frame, FrameError, PixelFilm};
+use fog_core::spectrum::{LANES, Spectrum, Wavelengths};
+use fog_film::{Channels, Films, Frame, FrameError, PixelFilm};
 use fog_scene::camera::{Camera, Ray};
 use fog_scene::scene::Scene;
 use rayon::prelude::*;
@@ -43,7 +44,9 @@ pub fn render(
 ) -> Result<Option<Frame>, FrameError> {
     let tracer = PathTracer::new(scene, observer, *settings);
     let count = camera.width as usize * camera.height as usize;
-    let mut films = vec![PixelFilm::default(); count];
+    let groups: Vec<String> =
+        scene.light_groups().map_or_else(Vec::new, |g| g.names().map(str::to_owned).collect());
+    let mut films = Films::new(count, groups.len());
     let all = (0..count).map(|i| (i, settings.samples)).collect();
     let mut round = Round { pixels: all, expected: settings.samples * count as u64 };
     while !round.pixels.is_empty() {
@@ -51,13 +54,14 @@ pub fn render(
             return Ok(None);
         }
         let Some(stop) = &settings.stop else { break };
-        round = next_round(&films, camera.width as usize, stop);
+        round = next_round(&films.pixels, camera.width as usize, stop);
         progress(Work::Left(round.expected));
     }
     let channels =
         settings.wavelength_nm.map_or(Channels::Rgb, |wavelength_nm| Channels::Mono { wavelength_nm });
     let truth = truth(scene, camera, settings.wavelength_nm);
-    Frame::from_pixels(camera.width, camera.height, channels, &films, truth).map(Some)
+    let frame = Frame::from_pixels(camera.width, camera.height, channels, &films.pixels, truth)?;
+    frame.with_groups(groups, &films).map(Some)
 }
 
 /// One path as the film gets it: linear sRGB, or for a single wavelength its radiance in channel 0.
@@ -95,37 +99,59 @@ impl PathTracer<'_> {
         camera: &Camera,
         seed: u64,
         round: &Round,
-        films: &mut [PixelFilm],
+        films: &mut Films,
         progress: &(dyn Fn(Work) -> bool + Sync),
     ) -> Option<()> {
-        let most = round.pixels.iter().map(|&(i, until)| until - films[i].samples()).max().unwrap_or(0);
+        let most =
+            round.pixels.iter().map(|&(i, until)| until - films.pixels[i].samples()).max().unwrap_or(0);
         let size = (TASK_PATHS / most.max(1)).clamp(1, TASK_PIXELS as u64) as usize;
-        let before: &[PixelFilm] = films;
-        let done: Option<Vec<Vec<PixelFilm>>> = round
+        let before: &Films = films;
+        let done: Option<Vec<Films>> = round
             .pixels
             .par_chunks(size)
             .map(|task| {
+                let mut part = before.select(task.iter().map(|&(i, _)| i));
                 let mut paths = 0;
-                let pixel = |&(i, until): &(usize, u64)| {
-                    let mut film = before[i];
-                    paths += until - film.samples();
-                    self.pixel(camera, i, seed, film.samples()..until, &mut film);
-                    film
-                };
-                let pixels = task.iter().map(pixel).collect();
-                progress(Work::Traced(paths)).then_some(pixels)
+                for (k, &(i, until)) in task.iter().enumerate() {
+                    let range = part.pixels[k].samples()..until;
+                    paths += until - range.start;
+                    let (film, groups) = part.pixel(k);
+                    self.pixel((camera, i), seed, range, film, groups);
+                }
+                progress(Work::Traced(paths)).then_some(part)
             })
             .collect();
-        for (&(i, _), film) in round.pixels.iter().zip(done?.into_iter().flatten()) {
-            films[i] = film;
+        for (task, part) in round.pixels.chunks(size).zip(done?) {
+            films.replace(task.iter().map(|&(i, _)| i), &part);
         }
         Some(())
     }
 
-    /// Adds samples of pixel `i` (row-major) to its film, in order.
-    fn pixel(&self, camera: &Camera, i: usize, seed: u64, samples: Range<u64>, film: &mut PixelFilm) {
+    /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order.
+    fn pixel(
+        &self,
+        (camera, i): (&Camera, usize),
+        seed: u64,
+        samples: Range<u64>,
+        film: &mut PixelFilm,
+        groups: &mut [[f64; 3]],
+    ) {
+        let mut light = GroupLight::new(self.scene, groups.len());
         for sample in samples {
-            let Sample { direct, airlight } = self.sample(camera, i, seed, sample);
+            let Sample { direct, airlight } = if groups.is_empty() {
+                self.sample(camera, i, seed, sample)
+            } else {
+                let mut start = self.start(camera, i, seed, sample);
+                light.clear();
+                let seen =
+                    self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light);
+                let response = self.response(&start.wavelengths);
+                for (sum, light) in groups.iter_mut().zip(light.groups()) {
+                    let rgb = film_value(response.as_ref(), light);
+                    (0..3).for_each(|c| sum[c] += f64::from(rgb[c]));
+                }
+                finish(response.as_ref(), seen)
+            };
             if self.settings.wavelength_nm.is_some() {
                 film.add_mono(direct[0], airlight[0]);
             } else {
@@ -140,7 +166,7 @@ impl PathTracer<'_> {
     pub fn sample(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Sample {
         let mut start = self.start(camera, i, seed, sample);
         let seen = self.radiance(start.ray, &start.wavelengths, start.flight, &mut start.rng);
-        self.finish(&start.wavelengths, seen)
+        finish(self.response(&start.wavelengths).as_ref(), seen)
     }
 
     #[inline]
@@ -163,28 +189,38 @@ impl PathTracer<'_> {
         }
     }
 
-    /// The colour of what a path saw.
+    /// Linear sRGB that radiance 1 at each wavelength gives; none where one wavelength is rendered.
     #[inline]
-    pub(crate) fn finish(&self, wavelengths: &Wavelengths, seen: PathRadiance) -> Sample {
-        let (found, glow) = if self.settings.wavelength_nm.is_some() {
-            ([seen.radiance[0], 0.0, 0.0], [seen.glow[0], 0.0, 0.0])
-        } else {
-            let response = self.observer.lane_response(wavelengths);
-            let (mut found, mut glow) = ([0.0; 3], [0.0; 3]);
-            for lane in 0..LANES {
-                for c in 0..3 {
-                    found[c] += seen.radiance[lane] * response[lane][c];
-                    glow[c] += seen.glow[lane] * response[lane][c];
-                }
-            }
-            (found, glow)
-        };
-        if seen.airlight {
-            Sample { direct: [0.0; 3], airlight: sum(found, glow) }
-        } else {
-            Sample { direct: found, airlight: glow }
+    pub(crate) fn response(&self, wavelengths: &Wavelengths) -> Option<Response> {
+        self.settings.wavelength_nm.is_none().then(|| self.observer.lane_response(wavelengths))
+    }
+}
+
+/// Colours of radiance 1 at each wavelength of a path.
+type Response = [[f32; 3]; LANES];
+
+/// The colour of what a path saw.
+#[inline]
+pub(crate) fn finish(response: Option<&Response>, seen: PathRadiance) -> Sample {
+    let (found, glow) = (film_value(response, &seen.radiance), film_value(response, &seen.glow));
+    if seen.airlight {
+        Sample { direct: [0.0; 3], airlight: sum(found, glow) }
+    } else {
+        Sample { direct: found, airlight: glow }
+    }
+}
+
+/// A radiance as the film gets it.
+#[inline]
+fn film_value(response: Option<&Response>, radiance: &Spectrum) -> Rgb {
+    let Some(response) = response else { return [radiance[0], 0.0, 0.0] };
+    let mut rgb = [0.0; 3];
+    for lane in 0..LANES {
+        for c in 0..3 {
+            rgb[c] += radiance[lane] * response[lane][c];
         }
     }
+    rgb
 }
 
 fn sum(a: Rgb, b: Rgb) -> Rgb {

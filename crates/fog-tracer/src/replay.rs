@@ -1,7 +1,7 @@
 //! One path of a frame once more, with everything that happened to it.
 
 use crate::path::PathTracer;
-use crate::render::Sample;
+use crate::render::{Sample, finish};
 use crate::watch::Step;
 use fog_core::spectrum::{LANES, Spectrum, Wavelengths};
 use fog_scene::camera::{Camera, Ray};
@@ -33,15 +33,15 @@ impl PathTracer<'_> {
         let mut start = self.start(camera, i, seed, sample);
         let mut steps = Vec::new();
         let seen = self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut steps);
-        let colour = self.settings.wavelength_nm.is_none();
+        let response = self.response(&start.wavelengths);
         Replay {
             image_point: start.image_point,
             ray: start.ray,
             wavelengths: start.wavelengths,
             steps,
             radiance: seen.radiance + seen.glow,
-            response: colour.then(|| self.observer.lane_response(&start.wavelengths)),
-            sample: self.finish(&start.wavelengths, seen),
+            response,
+            sample: finish(response.as_ref(), seen),
         }
     }
 }

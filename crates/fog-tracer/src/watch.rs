@@ -7,6 +7,7 @@ use crate::lights::LightSample;
 use fog_core::Vec3A;
 use fog_core::spectrum::Spectrum;
 use fog_scene::Hit;
+use fog_scene::light_groups::LightSource;
 use fog_scene::phase::Scatterer;
 use fog_scene::scene::Surface;
 
@@ -14,17 +15,26 @@ use fog_scene::scene::Surface;
 pub trait Watch {
     /// Takes a step, which is put together only for those who want it.
     fn see(&mut self, step: impl FnOnce() -> Step);
+
+    /// Takes light that the path adds to its sum.
+    fn light(&mut self, source: LightSource, light: Spectrum);
 }
 
 impl Watch for () {
     #[inline(always)]
     fn see(&mut self, _: impl FnOnce() -> Step) {}
+
+    #[inline(always)]
+    fn light(&mut self, _: LightSource, _: Spectrum) {}
 }
 
 impl Watch for Vec<Step> {
     fn see(&mut self, step: impl FnOnce() -> Step) {
         self.push(step());
     }
+
+    /// The steps tell of it.
+    fn light(&mut self, _: LightSource, _: Spectrum) {}
 }
 
 /// Weights of a path at its wavelengths: `beta` over the mean of `r_u` over the lanes weighs what light it meets by chance.

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::fog::Fog;
-use crate::lighting::{DistantLights, distant_lights};
+use crate::lighting::{DistantLights, distant_lights, light_groups};
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
@@ -52,9 +52,12 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
     let fog = Fog::new(&spec.fog, resources)?;
     let DistantLights { environment, sky, sun } = distant_lights(&spec.lighting, resources)?;
     let medium = fog.as_ref().map(|f| f.medium.clone());
-    let scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
+    let mut scene = Scene::new(loaded, medium, environment, sun, spec.lighting.scene_emitters)
         .with_luminance_of_one(spec.lighting.luminance_of_one_cd_m2)
         .with_sky(sky);
+    if let Some(groups) = light_groups(&spec.lighting) {
+        scene = scene.with_light_groups(groups);
+    }
     Ok((scene, fog))
 }
 

@@ -60,6 +60,10 @@ pub(crate) fn record(
             "units": "cd, lx and cd/m² of the scene file, divided by the luminance that the radiance 1 stands for",
         });
     }
+    if let Some(groups) = scene.light_groups() {
+        let counts = groups.names().map(str::to_owned).zip(scene.light_counts().into_iter().map(Value::from));
+        value["lighting"]["lights_in_group"] = counts.collect::<serde_json::Map<_, _>>().into();
+    }
     value["noise"] = noise_json(spec, frame);
     value["config_digest"] = json!(config_digest);
     value["code"] = json!({ "version": env!("CARGO_PKG_VERSION"), "digest": CODE_DIGEST });

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::forecast::Forecast;
 use crate::frame::{Rendered, render_frame};
+use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::{CODE_DIGEST, changed_files, frame};
@@ -10,7 +11,7 @@ use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet
 use fog_plan::{FrameSpec, Plan};
 use fog_tracer::render::Work;
 use serde_json::json;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::Instant;
@@ -68,6 +69,7 @@ pub fn sweep(
         resources.prepare(&frames[i], progress);
     }
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
+    warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
     // If not one of them can be put together, that is the configuration's fault and not a frame's.
     let mut refused = None;
     for &i in &selected {
@@ -157,6 +159,32 @@ fn warn_of_extrapolation<'f>(
     }
 }
 
+/// Says once for each scene which names of light groups it does not have.
+fn warn_of_unknown_lights<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut said = BTreeSet::new();
+    for frame in frames {
+        let Some(file) = frame.scene.as_ref().map(|s| s.file.as_path()) else { continue };
+        let Ok(loaded) = resources.scene(Some(file)) else { continue };
+        for group in &frame.lighting.groups {
+            for lights in group.lights.iter().filter(|lights| !pattern(lights).is_known(&loaded)) {
+                let text = format!(
+                    "lighting.groups: {} has nothing like {} of group `{}`",
+                    file.display(),
+                    json!(lights),
+                    group.name
+                );
+                if said.insert(text.clone()) {
+                    progress.event(Event::Warning(text));
+                }
+            }
+        }
+    }
+}
+
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
@@ -175,7 +203,8 @@ pub fn most_paths(spec: &FrameSpec) -> u64 {
 pub fn output_set(spec: &FrameSpec) -> OutputSet {
     let names: Vec<String> =
         spec.outputs.iter().filter_map(|o| Some(json!(o).as_str()?.to_owned())).collect();
-    OutputSet::from_names(names).unwrap_or_default()
+    let set = OutputSet::from_names(names).unwrap_or_default();
+    OutputSet { groups: !spec.lighting.groups.is_empty(), ..set }
 }
 
 fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error> {

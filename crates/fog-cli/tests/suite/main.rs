@@ -10,6 +10,7 @@ mod droplets;
 mod failures;
 mod figures;
 mod fit;
+mod groups;
 mod lamps;
 mod mie;
 mod mistakes;

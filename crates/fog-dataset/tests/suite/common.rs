@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use fog_dataset::{Attribute, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame, Result};
-use fog_film::{Channels, Frame, PixelFilm, Truth};
+use fog_film::{Channels, Frame, GroupLayer, PixelFilm, Truth};
 use serde_json::{Map, Value, json};
 
 /// A deterministic number in [0, 1).
@@ -46,7 +46,12 @@ pub(crate) fn frame(width: u32, height: u32, channels: Channels, samples: u32) -
             }
         }
     }
-    Frame::from_pixels(width, height, channels, &pixels, truth).expect("a valid frame")
+    let mut frame = Frame::from_pixels(width, height, channels, &pixels, truth).expect("a valid frame");
+    // Two groups of lights: one made the direct light, one the rest.
+    frame.groups = [("lamps", &frame.direct), ("rest", &frame.airlight)]
+        .map(|(name, radiance)| GroupLayer { name: name.to_owned(), radiance: radiance.clone() })
+        .to_vec();
+    frame
 }
 
 /// One frame of a plan.

@@ -27,12 +27,14 @@ fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 11 + 6);
+    assert_eq!(s.channels.len(), 11 + 6 + 6);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
         same(&s, &format!("airlight.{name}"), |i| f.airlight[i][c]);
         same(&s, &format!("transmittance.{name}"), |i| f.truth.transmittance[i][c]);
+        same(&s, &format!("group.lamps.{name}"), |i| f.groups[0].radiance[i][c]);
+        same(&s, &format!("group.rest.{name}"), |i| f.groups[1].radiance[i][c]);
         let (d, a) = (&s.channels[&format!("direct.{name}")], &s.channels[&format!("airlight.{name}")]);
         same(&s, name, |i| d.values[i] + a.values[i]);
     }
@@ -66,6 +68,8 @@ fn one_wavelength_has_one_channel() {
             "depth.Z",
             "direct.Y",
             "distance.Z",
+            "group.lamps.Y",
+            "group.rest.Y",
             "samples.Y",
             "standard_error.Y",
             "tau.Y",

@@ -22,7 +22,7 @@ fn sizes_are_estimated() {
             .map(|(name, bytes)| (name, bytes.len()))
             .collect();
         let total: usize = sizes.iter().map(|(_, n)| n).sum();
-        let estimate = estimate_bytes(width, height, OutputSet::all());
+        let estimate = estimate_bytes(width, height, OutputSet::all(), 2);
         println!("{width} x {height}: {seconds:.3} s, {total} bytes, estimated {estimate}, {sizes:?}");
         let ratio = estimate as f64 / total as f64;
         assert!((0.67..1.5).contains(&ratio), "{width} x {height}: {total} bytes, estimated {estimate}");
@@ -40,7 +40,7 @@ fn each_output_is_estimated() {
         store(&set, "f0", &f).expect("written");
         let own = contents(dir.path()).into_iter().filter(|(file, _)| file.starts_with("f0"));
         let total: usize = own.map(|(_, bytes)| bytes.len()).sum();
-        let estimate = estimate_bytes(320, 180, outputs);
+        let estimate = estimate_bytes(320, 180, outputs, 2);
         println!("{name}: {:.2} bytes per pixel, estimated {estimate} of {total}", total as f64 / 57_600.0);
         let ratio = estimate as f64 / total as f64;
         if !(0.5..2.0).contains(&ratio) {

@@ -18,7 +18,7 @@ pub(crate) enum LightingFile {
     /// A preset by name.
     Preset(Preset),
     /// Light sources one by one.
-    Map(LightingMap),
+    Map(Box<LightingMap>),
 }
 
 impl Default for LightingFile {
@@ -57,11 +57,41 @@ pub(crate) struct LightingMap {
     /// Absent: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) luminance_of_one_cd_m2: Option<f64>,
+    /// Groups of lights: the light of each is one more layer of the radiance, and those of all lights that belong to no group
+    /// one more, `rest`; they add up to the image. A light belongs to the first group that names it.
+    #[schemars(length(max = 32))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) groups: Vec<LightGroupFile>,
+}
+
+/// A group of lights.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "LightGroup", extend("required" = ["name", "lights"]))]
+pub(crate) struct LightGroupFile {
+    /// Name of the layer: letters, digits, `_` and `-`.
+    #[schemars(required, length(min = 1, max = 32), regex(pattern = "^[A-Za-z0-9_-]+$"))]
+    pub(crate) name: Option<String>,
+    /// Its lights: `environment`, `sun`, `lamps` (all points and spots of the scene file), `directional`, `emitters`,
+    /// `node:NAME` (lights and emitting surfaces of nodes), `material:NAME` (emitting surfaces); in a name, `*` stands for any
+    /// text.
+    #[schemars(required, length(min = 1))]
+    pub(crate) lights: Option<Vec<String>>,
+    /// Factor on the light of all of them. Absent: 1.
+    #[schemars(range(min = ranges::INTENSITY.min, max = ranges::INTENSITY.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) intensity: Option<f64>,
 }
 
 impl Default for LightingMap {
     fn default() -> Self {
-        Self { environment: None, sun: None, scene_emitters: true, luminance_of_one_cd_m2: None }
+        Self {
+            environment: None,
+            sun: None,
+            scene_emitters: true,
+            luminance_of_one_cd_m2: None,
+            groups: Vec::new(),
+        }
     }
 }
 
@@ -151,7 +181,7 @@ impl<'de> Visitor<'de> for LightingVisitor {
     type Value = LightingFile;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters, luminance_of_one_cd_m2")
+        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters, luminance_of_one_cd_m2, groups")
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<LightingFile, E> {
@@ -159,6 +189,6 @@ impl<'de> Visitor<'de> for LightingVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<LightingFile, A::Error> {
-        LightingMap::deserialize(MapAccessDeserializer::new(map)).map(LightingFile::Map)
+        LightingMap::deserialize(MapAccessDeserializer::new(map)).map(|map| LightingFile::Map(Box::new(map)))
     }
 }

@@ -17,7 +17,8 @@ pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{
-    EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile,
+    EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset,
+    SUN_DIAMETER_DEG, SunFile,
 };
 pub(crate) use or_none::OrNone;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};

@@ -20,18 +20,20 @@ impl Check<'_> {
             LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
             LightingFile::Map(map) => map,
         };
-        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2 } = map;
+        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2, groups } = &**map;
         let environment =
             environment.as_ref().map_or(Some(None), |e| self.environment(e, rendered_nm).map(Some));
         let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, rendered_nm).map(Some));
         let path = "lighting.luminance_of_one_cd_m2";
         let luminance = self.optional(path, *luminance_of_one_cd_m2, ranges::LUMINANCE_CD_M2);
+        let groups = self.light_groups(groups);
         Some(LightingSpec {
             preset: None,
             environment: environment?,
             sun: sun?,
             scene_emitters: *scene_emitters,
             luminance_of_one_cd_m2: luminance?.unwrap_or(LUMINANCE_OF_ONE_CD_M2),
+            groups: groups?,
         })
     }
 
@@ -128,6 +130,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             sun: None,
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
         Preset::Night => LightingSpec {
             preset: Some("night"),
@@ -135,6 +138,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             sun: None,
             scene_emitters: true,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
         Preset::Sunny => LightingSpec {
             preset: Some("sunny"),
@@ -148,6 +152,7 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             }),
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
+            groups: Vec::new(),
         },
     }
 }

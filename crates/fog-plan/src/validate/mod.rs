@@ -2,6 +2,7 @@
 
 mod droplets;
 mod fog;
+mod light_groups;
 mod lighting;
 mod view;
 

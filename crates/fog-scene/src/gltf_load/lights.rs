@@ -2,16 +2,16 @@
 
 use super::Warnings;
 use crate::error::{Failure, SceneErrorKind};
-use crate::lamp::{Beam, Cone, Lamp, PunctualLights};
+use crate::lamp::{Beam, Cone, Lamp, LightNames, PunctualLights};
 use fog_core::{Vec3A, math};
 use glam::{DMat4, DVec3};
 use gltf::khr_lights_punctual::{Kind, Light};
 
-/// Adds a node's light; `world` is the node's matrix. Its scale turns nothing but the axis, and dims nothing.
+/// Adds the light of the node `node`; `world` is the node's matrix. Its scale turns nothing but the axis, and dims nothing.
 pub(super) fn place(
     light: &Light<'_>,
-    world: &DMat4,
-    out: &mut PunctualLights,
+    (node, world): (&str, &DMat4),
+    (out, names): (&mut PunctualLights, &mut LightNames),
     warnings: &mut Warnings,
 ) -> Result<(), Failure> {
     let name = light.name().map_or_else(|| light.index().to_string(), str::to_owned);
@@ -55,5 +55,7 @@ pub(super) fn place(
             out.lamps.push(Lamp { position, intensity: rgb, cone: Some(cone) });
         }
     }
+    names.lamps.resize(out.lamps.len(), node.to_owned());
+    names.beams.resize(out.beams.len(), node.to_owned());
     Ok(())
 }

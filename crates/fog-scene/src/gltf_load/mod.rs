@@ -16,7 +16,7 @@ mod uri;
 
 use crate::error::{Failure, SceneError};
 use crate::geometry::Geometry;
-use crate::lamp::PunctualLights;
+use crate::lamp::{LightNames, PunctualLights};
 use crate::material::{Material, Opacity};
 use crate::texture::Texture;
 use std::path::Path;
@@ -64,6 +64,8 @@ pub struct LoadedScene {
     pub objects: Vec<SceneObject>,
     /// Lights without extent, in cd and lx.
     pub lights: PunctualLights,
+    /// Whose they are.
+    pub light_names: LightNames,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -117,10 +119,10 @@ fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
     // Primitives without a material use glTF's default one, which comes last.
     materials.push(Material::default());
 
-    let nodes::Flat { triangles, colors, tangents, objects, lights } =
+    let nodes::Flat { triangles, colors, tangents, objects, lights, light_names } =
         nodes::flatten(&document, &buffers, (&materials, &textures), limits.max_triangles, &mut warnings)?;
     let shared: Arc<[Texture]> = textures.iter().cloned().collect();
     let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
     let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
-    Ok(LoadedScene { geometry, materials, textures, objects, lights, warnings: warnings.0 })
+    Ok(LoadedScene { geometry, materials, textures, objects, lights, light_names, warnings: warnings.0 })
 }

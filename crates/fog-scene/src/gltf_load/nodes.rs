@@ -5,7 +5,7 @@ use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneObject, Warnings, lights};
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
-use crate::lamp::PunctualLights;
+use crate::lamp::{LightNames, PunctualLights};
 use crate::material::Material;
 use crate::texture::Texture;
 use crate::triangle::Triangle;
@@ -26,6 +26,7 @@ pub(super) struct Flat {
     pub(super) tangents: CornerValues,
     pub(super) objects: Vec<SceneObject>,
     pub(super) lights: PunctualLights,
+    pub(super) light_names: LightNames,
 }
 
 /// What a node hands down to its children.
@@ -76,7 +77,8 @@ pub(super) fn flatten(
             instance: label("instance", &above.instance),
         };
         if let Some(light) = node.light() {
-            lights::place(&light, &here.world, &mut flat.lights, warnings)?;
+            let out = (&mut flat.lights, &mut flat.light_names);
+            lights::place(&light, (&name, &here.world), out, warnings)?;
         }
         if let Some(mesh) = mesh {
             let primitives = match meshes.get(&mesh.index()) {

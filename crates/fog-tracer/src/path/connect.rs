@@ -26,7 +26,7 @@ impl PathTracer<'_> {
         let value = lobe.value(light.direction);
         let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
         let mut density = path.r_u * light.density(value.density * transmittance);
-        if let Some((flight, lamp)) = flight.zip(light.lamp) {
+        if let Some((flight, lamp)) = flight.zip(light.lamp()) {
             let lamps = self.scene.lamps();
             let near = flight.segment.near(lamps.lamps()[lamp].position).pdf(flight.t) as f32;
             density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
@@ -91,7 +91,9 @@ impl PathTracer<'_> {
             return Spectrum::ZERO;
         }
         watch.see(|| offer.step(keep, Visibility::Free));
-        sum * (1.0 / keep)
+        let seen = sum * (1.0 / keep);
+        watch.light(light.source, seen);
+        seen
     }
 
     /// Transmittance of the fog along a ray at all lanes.

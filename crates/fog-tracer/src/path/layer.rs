@@ -5,6 +5,7 @@ use crate::layer_light::LayerLanes;
 use crate::watch::{Step, Watch};
 use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
+use fog_scene::light_groups::LightSource;
 
 /// Share of the collisions at which the light that the fog absorbs is counted, for all of them: it is little.
 const ABSORPTION_SHARE: f32 = 0.125;
@@ -70,6 +71,7 @@ impl PathTracer<'_> {
         let added = after - expected;
         if !added.is_zero() {
             watch.see(|| Step::Layer { added });
+            watch.light(LightSource::Environment, added);
             out.radiance += added;
         }
     }

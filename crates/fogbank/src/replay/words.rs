@@ -103,7 +103,10 @@ impl Replayed {
                 throughput(f, weights)
             }
             Step::Layer { added } => {
-                writeln!(f, "expects from here what the layer of fog alone would show, no longer what it expected")?;
+                writeln!(
+                    f,
+                    "expects from here what the layer of fog alone would show, no longer what it expected"
+                )?;
                 self.adds(f, "that changes the sum", added)
             }
             Step::Absorbed => writeln!(f, "absorbed by the surface: the path ends"),
