@@ -13,6 +13,7 @@ mod phases;
 mod radiances;
 mod replay;
 mod samplers;
+mod shared;
 mod sky;
 mod street;
 mod truth;

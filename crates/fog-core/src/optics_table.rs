@@ -6,7 +6,7 @@
 
 use crate::math::PI;
 use crate::phase_grid::{self, NODES};
-use crate::phase_lookup::{eval_lanes, interpolating_row, invert_linear};
+use crate::phase_lookup::{eval_lanes, interpolating_row, invert_linear, rows_around};
 pub use crate::shared_words::SharedBytes;
 use crate::shared_words::{self, SharedWords};
 use crate::spectrum::{LaneWeights, Spectrum};
@@ -277,6 +277,13 @@ impl OpticsView<'_> {
     #[must_use]
     pub fn phase_row(&self, zeta: f32, u: f32) -> usize {
         interpolating_row(self.zeta, zeta, u)
+    }
+
+    /// The ζ row below `zeta`, and the weight of the next one in the linear interpolation between both.
+    #[inline]
+    #[must_use]
+    pub fn phase_rows(&self, zeta: f32) -> (usize, f32) {
+        rows_around(self.zeta, zeta)
     }
 
     /// Phase function of row `row` in 1/sr at all lanes, for m = 1 − cos θ.

@@ -18,6 +18,18 @@ pub(crate) fn interpolating_row(zeta: &[f64], at: f32, u: f32) -> usize {
     if f64::from(u) < t { upper } else { upper - 1 }
 }
 
+/// The row below `at`, and the weight of the next one in the linear interpolation between both.
+#[inline(always)]
+pub(crate) fn rows_around(zeta: &[f64], at: f32) -> (usize, f32) {
+    let n = zeta.len();
+    if n == 1 {
+        return (0, 0.0);
+    }
+    let at = f64::from(at);
+    let upper = zeta.partition_point(|&z| z <= at).clamp(1, n - 1);
+    (upper - 1, ((at - zeta[upper - 1]) / (zeta[upper] - zeta[upper - 1])).clamp(0.0, 1.0) as f32)
+}
+
 /// Value of row `row` at all lanes for m = 1 − cos θ; `phase` is \[row\]\[node\]\[wavelength\] with `w` wavelengths.
 #[inline(always)]
 pub(crate) fn eval_lanes(

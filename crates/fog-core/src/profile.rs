@@ -315,6 +315,21 @@ impl ExtinctionProfile {
         })
     }
 
+    /// [`ExtinctionProfile::optical_depth`] at the hero wavelength (lane 0) alone.
+    #[inline]
+    #[must_use]
+    pub fn optical_depth_of_hero(&self, y0: f64, dy: f64, t_max: f64, lanes: &ProfileLanes) -> f64 {
+        let depth = |span| self.hero(&self.depth_products(y0, dy, span), lanes).max(0.0);
+        self.clip(y0, dy, t_max).map_or(0.0, depth)
+    }
+
+    /// [`ExtinctionProfile::sigma_t`] at the hero wavelength (lane 0) alone.
+    #[inline]
+    #[must_use]
+    pub fn sigma_t_of_hero(&self, y: f64, lanes: &ProfileLanes) -> f64 {
+        self.hero(&self.sigma_products(self.locate(y)), lanes).max(0.0)
+    }
+
     /// Optical depth in f64 at one wavelength: what ground truth is made of.
     #[must_use]
     pub fn optical_depth_at(&self, y0: f64, dy: f64, t_max: f64, wavelength_nm: f64) -> f64 {

@@ -19,6 +19,12 @@ impl Medium {
         Self { profile, phase, nodes: PhaseNodes::default() }
     }
 
+    /// True if frames in this fog and others can share paths: its densities can be told at any point, without drawing.
+    #[must_use]
+    pub fn can_share(&self) -> bool {
+        self.phase.has_rows()
+    }
+
     /// Extinction and albedo by altitude.
     #[must_use]
     pub fn profile(&self) -> &ExtinctionProfile {

@@ -115,7 +115,24 @@ fn between(axis: &[f64], at: f64) -> (usize, usize, f64) {
     (upper - 1, upper, ((at - a) / (b - a)).clamp(0.0, 1.0))
 }
 
+/// Rows of a table between which a scattering draws its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PhaseRows {
+    /// Drawn with probability 1 − t.
+    pub lower: usize,
+    /// Drawn with probability t.
+    pub upper: usize,
+    /// In [0, 1].
+    pub t: f32,
+}
+
 impl Phase {
+    /// True if the phase function is linear interpolation between rows ([`PhaseView::rows`]).
+    #[must_use]
+    pub fn has_rows(&self) -> bool {
+        !matches!(self, Self::Droplets { .. })
+    }
+
     /// Resolves the tables.
     #[must_use]
     pub fn view<'a>(&'a self, nodes: &'a PhaseNodes) -> PhaseView<'a> {
@@ -188,6 +205,30 @@ impl PhaseView<'_> {
             }
         };
         Scatterer { row, lanes: *lanes, probability_ratio: Spectrum::ONE }
+    }
+
+    /// Rows around relative altitude `zeta`; of single droplets none that are of use ([`Phase::has_rows`]).
+    #[inline]
+    #[must_use]
+    pub fn rows(&self, zeta: f32) -> PhaseRows {
+        match self {
+            Self::Table { view, .. } => {
+                let (lower, t) = view.phase_rows(zeta);
+                PhaseRows { lower, upper: if t > 0.0 { lower + 1 } else { lower }, t }
+            }
+            _ => PhaseRows::default(),
+        }
+    }
+
+    /// Value in 1/sr at all lanes between two rows: that of a scattering whichever row it draws.
+    #[inline]
+    #[must_use]
+    pub fn eval_between(&self, rows: PhaseRows, m: f32, lanes: &LaneWeights) -> Spectrum {
+        let lower = self.eval(rows.lower, m, lanes);
+        if rows.t == 0.0 {
+            return lower;
+        }
+        lower + (self.eval(rows.upper, m, lanes) - lower) * rows.t
     }
 
     /// Value in 1/sr at all lanes, of row `row` of the table (see [`Scatterer`]).

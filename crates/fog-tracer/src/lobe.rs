@@ -36,6 +36,14 @@ pub(crate) struct LobeValue {
     pub(crate) density: Spectrum,
 }
 
+/// Share of directions drawn around the sun by a path along `before`, where the beam has this transmittance.
+#[inline]
+pub(crate) fn sun_share(before: Vec3A, sun: Vec3A, transmittance: f32) -> f32 {
+    let root = transmittance.sqrt();
+    let near = 1.0 / (1.0 + 0.5 * (sun - before).length_squared() / NEAR_M);
+    FAR_SHARE * root * (1.0 - near) + NEAR_SHARE * root.sqrt() * near
+}
+
 impl<'a> FogLobe<'a> {
     /// Scattering of a path that travelled along `before`, by `scatterer`. `sun` is the direction to the sun and its beam's transmittance to here, which must not depend on the path's wavelengths.
     #[inline]
@@ -46,10 +54,7 @@ impl<'a> FogLobe<'a> {
         sun: Option<(Vec3A, f32)>,
     ) -> Self {
         let (sun, transmittance) = sun.unwrap_or((before, 0.0));
-        let root = transmittance.sqrt();
-        let near = 1.0 / (1.0 + 0.5 * (sun - before).length_squared() / NEAR_M);
-        let sun_share = FAR_SHARE * root * (1.0 - near) + NEAR_SHARE * root.sqrt() * near;
-        Self { phase, scatterer, before, sun, sun_share }
+        Self { phase, scatterer, before, sun, sun_share: sun_share(before, sun, transmittance) }
     }
 
     /// Value and density for a direction of travel after the scattering.

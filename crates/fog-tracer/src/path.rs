@@ -53,7 +53,7 @@ pub struct PathTracer<'a> {
     pub(crate) settings: Settings,
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
-    roulette_below: f32,
+    pub(crate) roulette_below: f32,
     layer_light: Option<LayerLight>,
 }
 
@@ -177,7 +177,7 @@ impl<'a> PathTracer<'a> {
                     let sum = self.emitted(&path, &hit, &surface);
                     let expected = self.layer_beside(&path, &lanes, f64::from(surface.point.position.y));
                     watch.see(|| Step::surface(&hit, &surface, sum));
-                    watch.light(LightSource::Emitter(hit.triangle), sum);
+                    watch.light(LightSource::Emitter(hit.triangle), sum, false);
                     out.radiance += sum;
                     self.may_scatter(&path, watch) && {
                         out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
@@ -331,20 +331,20 @@ impl<'a> PathTracer<'a> {
         let mut sum = Spectrum::ZERO;
         if let Some(environment) = &self.scene.environment {
             sum += path.beta * (environment.radiance / path.r_u.mean());
-            watch.light(LightSource::Environment, sum);
+            watch.light(LightSource::Environment, sum, false);
         }
         if let Some(sky) = &self.scene.sky {
             let (radiance, pdf) = sky.radiance_and_pdf(path.direction, lanes.sky());
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sky_probability() * pdf };
             let light = path.beta * radiance * (1.0 / (path.r_u + path.r_l * pdf).mean());
-            watch.light(LightSource::Environment, light);
+            watch.light(LightSource::Environment, light, false);
             sum += light;
         }
         if let Some(sun) = self.scene.sun.as_ref().filter(|s| s.contains(path.direction)) {
             let pdf = if path.depth == 0 { 0.0 } else { self.lights.sun_probability() * sun.pdf() };
             let density = (path.r_u + path.r_l * pdf).mean();
             let light = path.beta * lanes.sun * (sun.radiance() / density);
-            watch.light(LightSource::Sun, light);
+            watch.light(LightSource::Sun, light, false);
             sum += light;
         }
         sum
@@ -418,20 +418,36 @@ impl Path {
     }
 }
 
-/// Reflects the path at a surface or sends it through; false if it ends there.
-pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
-    let Some(bsdf) = &surface.bsdf else { return false };
-    let wo = surface.world_from_shading.transpose() * -path.direction;
+/// How a surface turns a path.
+pub(crate) struct SurfaceTurn {
+    pub(crate) origin: Vec3A,
+    pub(crate) direction: Vec3A,
+    /// BSDF times cosine over `pdf`.
+    pub(crate) weight: Spectrum,
+    /// Density of the direction in 1/sr.
+    pub(crate) pdf: f32,
+}
+
+/// Draws how a path along `direction` is reflected at a surface or sent through; `None` if it ends there.
+#[inline(always)]
+pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut PathRng) -> Option<SurfaceTurn> {
+    let wo = surface.world_from_shading.transpose() * -direction;
     let (u, v) = rng.turn();
-    let Some(sample) = bsdf.sample(wo, rng.uniform(), [(u as f32).min(BELOW_ONE), v]) else { return false };
+    let sample = surface.bsdf.as_ref()?.sample(wo, rng.uniform(), [(u as f32).min(BELOW_ONE), v])?;
     let direction = (surface.world_from_shading * sample.wi).normalize();
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
-        return false;
+        return None;
     }
-    path.beta *= sample.weight;
-    path.r_l = path.r_u * (1.0 / sample.pdf);
-    path.origin = surface.point.spawn_origin(direction);
-    path.direction = direction;
+    let origin = surface.point.spawn_origin(direction);
+    Some(SurfaceTurn { origin, direction, weight: sample.weight, pdf: sample.pdf })
+}
+
+/// Reflects the path at a surface or sends it through; false if it ends there.
+pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
+    let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
+    path.beta *= turn.weight;
+    path.r_l = path.r_u * (1.0 / turn.pdf);
+    (path.origin, path.direction) = (turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
 }

@@ -44,24 +44,90 @@ pub fn render(
 ) -> Result<Option<Frame>, FrameError> {
     let tracer = PathTracer::new(scene, observer, *settings);
     let count = camera.width as usize * camera.height as usize;
-    let groups: Vec<String> =
-        scene.light_groups().map_or_else(Vec::new, |g| g.names().map(str::to_owned).collect());
-    let mut films = Films::new(count, groups.len());
+    let groups = group_names(scene);
+    let mut films = [Films::new(count, groups.len())];
+    let pixel = |i, samples, films: &mut [Films], k| {
+        let (film, groups) = films[0].pixel(k);
+        tracer.pixel((camera, i), seed, samples, film, groups);
+    };
+    if fill(&mut films, camera.width as usize, settings, &pixel, progress).is_none() {
+        return Ok(None);
+    }
+    let [films] = films;
+    let truth = truth(scene, camera, settings.wavelength_nm);
+    let frame = Frame::from_pixels(camera.width, camera.height, channels(settings), &films.pixels, truth)?;
+    frame.with_groups(groups, &films).map(Some)
+}
+
+/// What the channels of the frames mean.
+pub(crate) fn channels(settings: &Settings) -> Channels {
+    settings.wavelength_nm.map_or(Channels::Rgb, |wavelength_nm| Channels::Mono { wavelength_nm })
+}
+
+/// Names of a scene's light groups; none where lights are not told apart.
+pub(crate) fn group_names(scene: &Scene) -> Vec<String> {
+    scene.light_groups().map_or_else(Vec::new, |g| g.names().map(str::to_owned).collect())
+}
+
+/// Samples the films of one frame or several, all pixels in rounds. `pixel` adds the samples of a range to those of a pixel of
+/// the frame, which are at a place of each of the films that it gets. `None` if `progress` asked to stop.
+pub(crate) fn fill<P>(
+    films: &mut [Films],
+    width: usize,
+    settings: &Settings,
+    pixel: &P,
+    progress: &(dyn Fn(Work) -> bool + Sync),
+) -> Option<()>
+where
+    P: Fn(usize, Range<u64>, &mut [Films], usize) + Sync,
+{
+    let (count, frames) = (films[0].pixels.len(), films.len() as u64);
     let all = (0..count).map(|i| (i, settings.samples)).collect();
     let mut round = Round { pixels: all, expected: settings.samples * count as u64 };
     while !round.pixels.is_empty() {
-        if tracer.trace(camera, seed, &round, &mut films, progress).is_none() {
-            return Ok(None);
-        }
+        trace(films, &round, pixel, progress)?;
         let Some(stop) = &settings.stop else { break };
-        round = next_round(&films.pixels, camera.width as usize, stop);
-        progress(Work::Left(round.expected));
+        let next = films.iter().map(|films| next_round(&films.pixels, width, stop));
+        round = next.reduce(Round::union).unwrap_or_default();
+        progress(Work::Left(round.expected * frames));
     }
-    let channels =
-        settings.wavelength_nm.map_or(Channels::Rgb, |wavelength_nm| Channels::Mono { wavelength_nm });
-    let truth = truth(scene, camera, settings.wavelength_nm);
-    let frame = Frame::from_pixels(camera.width, camera.height, channels, &films.pixels, truth)?;
-    frame.with_groups(groups, &films).map(Some)
+    Some(())
+}
+
+/// Traces the samples of a round.
+fn trace<P>(
+    films: &mut [Films],
+    round: &Round,
+    pixel: &P,
+    progress: &(dyn Fn(Work) -> bool + Sync),
+) -> Option<()>
+where
+    P: Fn(usize, Range<u64>, &mut [Films], usize) + Sync,
+{
+    let most = round.pixels.iter().map(|&(i, until)| until - films[0].pixels[i].samples()).max().unwrap_or(0);
+    let size = (TASK_PATHS / (most.max(1) * films.len() as u64)).clamp(1, TASK_PIXELS as u64) as usize;
+    let before: &[Films] = films;
+    let done: Option<Vec<Vec<Films>>> = round
+        .pixels
+        .par_chunks(size)
+        .map(|task| {
+            let select = |films: &Films| films.select(task.iter().map(|&(i, _)| i));
+            let mut part: Vec<Films> = before.iter().map(select).collect();
+            let mut samples = 0;
+            for (k, &(i, until)) in task.iter().enumerate() {
+                let range = part[0].pixels[k].samples()..until;
+                samples += until - range.start;
+                pixel(i, range, &mut part, k);
+            }
+            progress(Work::Traced(samples * part.len() as u64)).then_some(part)
+        })
+        .collect();
+    for (task, parts) in round.pixels.chunks(size).zip(done?) {
+        for (films, part) in films.iter_mut().zip(&parts) {
+            films.replace(task.iter().map(|&(i, _)| i), part);
+        }
+    }
+    Some(())
 }
 
 /// One path as the film gets it: linear sRGB, or for a single wavelength its radiance in channel 0.
@@ -93,40 +159,6 @@ pub(crate) struct Start {
 }
 
 impl PathTracer<'_> {
-    /// Traces the samples of a round; `None` if `progress` asked to stop.
-    fn trace(
-        &self,
-        camera: &Camera,
-        seed: u64,
-        round: &Round,
-        films: &mut Films,
-        progress: &(dyn Fn(Work) -> bool + Sync),
-    ) -> Option<()> {
-        let most =
-            round.pixels.iter().map(|&(i, until)| until - films.pixels[i].samples()).max().unwrap_or(0);
-        let size = (TASK_PATHS / most.max(1)).clamp(1, TASK_PIXELS as u64) as usize;
-        let before: &Films = films;
-        let done: Option<Vec<Films>> = round
-            .pixels
-            .par_chunks(size)
-            .map(|task| {
-                let mut part = before.select(task.iter().map(|&(i, _)| i));
-                let mut paths = 0;
-                for (k, &(i, until)) in task.iter().enumerate() {
-                    let range = part.pixels[k].samples()..until;
-                    paths += until - range.start;
-                    let (film, groups) = part.pixel(k);
-                    self.pixel((camera, i), seed, range, film, groups);
-                }
-                progress(Work::Traced(paths)).then_some(part)
-            })
-            .collect();
-        for (task, part) in round.pixels.chunks(size).zip(done?) {
-            films.replace(task.iter().map(|&(i, _)| i), &part);
-        }
-        Some(())
-    }
-
     /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order.
     fn pixel(
         &self,
@@ -136,7 +168,7 @@ impl PathTracer<'_> {
         film: &mut PixelFilm,
         groups: &mut [[f64; 3]],
     ) {
-        let mut light = GroupLight::new(self.scene, groups.len());
+        let mut light = GroupLight::new(self.scene, groups.len(), 1);
         for sample in samples {
             let Sample { direct, airlight } = if groups.is_empty() {
                 self.sample(camera, i, seed, sample)
@@ -146,8 +178,8 @@ impl PathTracer<'_> {
                 let seen =
                     self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light);
                 let response = self.response(&start.wavelengths);
-                for (sum, light) in groups.iter_mut().zip(light.groups()) {
-                    let rgb = film_value(response.as_ref(), light);
+                for (sum, [direct, airlight]) in groups.iter_mut().zip(light.parts()) {
+                    let rgb = film_value(response.as_ref(), &(direct + airlight));
                     (0..3).for_each(|c| sum[c] += f64::from(rgb[c]));
                 }
                 finish(response.as_ref(), seen)
@@ -197,7 +229,7 @@ impl PathTracer<'_> {
 }
 
 /// Colours of radiance 1 at each wavelength of a path.
-type Response = [[f32; 3]; LANES];
+pub(crate) type Response = [[f32; 3]; LANES];
 
 /// The colour of what a path saw.
 #[inline]
@@ -212,7 +244,7 @@ pub(crate) fn finish(response: Option<&Response>, seen: PathRadiance) -> Sample 
 
 /// A radiance as the film gets it.
 #[inline]
-fn film_value(response: Option<&Response>, radiance: &Spectrum) -> Rgb {
+pub(crate) fn film_value(response: Option<&Response>, radiance: &Spectrum) -> Rgb {
     let Some(response) = response else { return [radiance[0], 0.0, 0.0] };
     let mut rgb = [0.0; 3];
     for lane in 0..LANES {

@@ -15,6 +15,7 @@
 use crate::settings::Stop;
 use fog_core::moments::Moments;
 use fog_film::{PixelFilm, noise_floor, relative_error};
+use std::collections::BTreeMap;
 
 /// Weights of the neighbourhood along rows and along columns. The own pixel has (6/16)² of the weight; independent pixels
 /// of equal variance count as 13.
@@ -28,6 +29,19 @@ pub(crate) struct Round {
     pub(crate) pixels: Vec<(usize, u64)>,
     /// Samples that are probably still to be taken, this round and later ones together.
     pub(crate) expected: u64,
+}
+
+impl Round {
+    /// What is to be traced for two frames that share their samples: each pixel until both are served.
+    pub(crate) fn union(self, other: Self) -> Self {
+        let mut pixels: BTreeMap<usize, u64> = self.pixels.into_iter().collect();
+        for (i, until) in other.pixels {
+            let most = pixels.entry(i).or_insert(until);
+            *most = until.max(*most);
+        }
+        let expected = self.expected.max(other.expected);
+        Self { pixels: pixels.into_iter().collect(), expected }
+    }
 }
 
 /// Judges the pixels of a frame. Counts grow by a quarter at least and to their double at most, since an estimate from n
@@ -172,6 +186,13 @@ mod tests {
         let round = next_round(&films, 5, &Stop { noise: 0.1, max_samples: 1000 });
         assert!(round.pixels.contains(&(12, 128)), "{round:?}");
         assert!(round.expected > 25 * 64, "{round:?}");
+    }
+
+    #[test]
+    fn frames_that_share_samples_are_both_served() {
+        let round = |pixels: &[(usize, u64)], expected| Round { pixels: pixels.to_vec(), expected };
+        let both = round(&[(1, 20), (3, 40)], 7).union(round(&[(0, 30), (3, 50)], 5));
+        assert_eq!(both, round(&[(0, 30), (1, 20), (3, 50)], 7));
     }
 
     #[test]

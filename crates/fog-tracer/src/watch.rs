@@ -16,8 +16,8 @@ pub trait Watch {
     /// Takes a step, which is put together only for those who want it.
     fn see(&mut self, step: impl FnOnce() -> Step);
 
-    /// Takes light that the path adds to its sum.
-    fn light(&mut self, source: LightSource, light: Spectrum);
+    /// Takes light that the path adds to its sum, and whether it is [`crate::path::PathRadiance::glow`].
+    fn light(&mut self, source: LightSource, light: Spectrum, glow: bool);
 }
 
 impl Watch for () {
@@ -25,7 +25,7 @@ impl Watch for () {
     fn see(&mut self, _: impl FnOnce() -> Step) {}
 
     #[inline(always)]
-    fn light(&mut self, _: LightSource, _: Spectrum) {}
+    fn light(&mut self, _: LightSource, _: Spectrum, _: bool) {}
 }
 
 impl Watch for Vec<Step> {
@@ -34,7 +34,7 @@ impl Watch for Vec<Step> {
     }
 
     /// The steps tell of it.
-    fn light(&mut self, _: LightSource, _: Spectrum) {}
+    fn light(&mut self, _: LightSource, _: Spectrum, _: bool) {}
 }
 
 /// Weights of a path at its wavelengths: `beta` over the mean of `r_u` over the lanes weighs what light it meets by chance.
@@ -237,6 +237,8 @@ pub(crate) struct Offer<'a> {
     pub(crate) value: Spectrum,
     pub(crate) transmittance: Spectrum,
     pub(crate) worth: Spectrum,
+    /// Whether it is light that the fog scatters along the first flight, whatever that ends at.
+    pub(crate) glow: bool,
 }
 
 impl Offer<'_> {

@@ -2,6 +2,7 @@
 
 use super::glow::Flight;
 use super::{Lanes, Path, PathTracer};
+use crate::lights::LightSample;
 use crate::lobe::FogLobe;
 use crate::watch::{Offer, Visibility, Watch};
 use fog_core::Vec3A;
@@ -32,7 +33,7 @@ impl PathTracer<'_> {
             density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
         }
         let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());
-        let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum };
+        let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum, glow: false };
         self.unless_occluded(path.origin, &offer, rng, watch)
     }
 
@@ -60,7 +61,7 @@ impl PathTracer<'_> {
         let transmittance = self.transmittance(origin, light.direction, light.distance, lanes);
         let density = light.density(transmittance * pdf);
         let sum = path.beta * value * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
-        let offer = Offer { light: &light, value, transmittance, worth: sum };
+        let offer = Offer { light: &light, value, transmittance, worth: sum, glow: false };
         self.unless_occluded(origin, &offer, rng, watch)
     }
 
@@ -75,25 +76,37 @@ impl PathTracer<'_> {
         watch: &mut impl Watch,
     ) -> Spectrum {
         let (light, sum) = (offer.light, offer.worth);
-        let largest = sum.max_lane();
-        if largest <= 0.0 {
-            watch.see(|| offer.step(1.0, Visibility::Dark));
+        let (keep, visibility) = self.shadow(origin, light, sum.max_lane(), rng);
+        watch.see(|| offer.step(keep, visibility));
+        if visibility != Visibility::Free {
             return Spectrum::ZERO;
+        }
+        let seen = sum * (1.0 / keep);
+        watch.light(light.source, seen, offer.glow);
+        seen
+    }
+
+    /// What becomes of a connection whose largest worth is `largest`, and the probability with which it was traced at all.
+    #[inline(always)]
+    pub(crate) fn shadow(
+        &self,
+        origin: Vec3A,
+        light: &LightSample,
+        largest: f32,
+        rng: &mut PathRng,
+    ) -> (f32, Visibility) {
+        if largest <= 0.0 {
+            return (1.0, Visibility::Dark);
         }
         let keep = (largest * self.lights.shadow_scale()).min(1.0);
         if keep < 1.0 && rng.uniform() >= keep {
-            watch.see(|| offer.step(keep, Visibility::Dropped));
-            return Spectrum::ZERO;
+            return (keep, Visibility::Dropped);
         }
         let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
         if self.scene.occluded(origin, light.direction, light.distance * (1.0 - 1e-4), key) {
-            watch.see(|| offer.step(keep, Visibility::Blocked));
-            return Spectrum::ZERO;
+            return (keep, Visibility::Blocked);
         }
-        watch.see(|| offer.step(keep, Visibility::Free));
-        let seen = sum * (1.0 / keep);
-        watch.light(light.source, seen);
-        seen
+        (keep, Visibility::Free)
     }
 
     /// Transmittance of the fog along a ray at all lanes.

@@ -87,7 +87,8 @@ impl PathTracer<'_> {
             return Spectrum::ZERO;
         }
         watch.see(|| Step::NearLamp { position: point, distance_m: t });
-        let offer = Offer { light: &light, value: phase, transmittance, worth: value * (1.0 / mean) };
+        let worth = value * (1.0 / mean);
+        let offer = Offer { light: &light, value: phase, transmittance, worth, glow: path.depth == 0 };
         self.unless_occluded(point, &offer, rng, watch)
     }
 }

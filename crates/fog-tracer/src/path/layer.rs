@@ -71,7 +71,7 @@ impl PathTracer<'_> {
         let added = after - expected;
         if !added.is_zero() {
             watch.see(|| Step::Layer { added });
-            watch.light(LightSource::Environment, added);
+            watch.light(LightSource::Environment, added, false);
             out.radiance += added;
         }
     }
