@@ -141,19 +141,19 @@ impl LayerLight {
     }
 
     /// Light that a path there may still find of what begins at the base, over that at the base: falls linearly in q to
-    /// what is left at the top. 1 where light also comes from above. For choices that must not depend on the path's
+    /// what is left at the top. `None` where light also comes from above. For choices that must not depend on the path's
     /// wavelengths.
     #[inline]
-    pub(crate) fn worth(&self, y: f64, up: f32) -> f32 {
+    pub(crate) fn worth(&self, y: f64, up: f32) -> Option<f32> {
         if !self.lit_from_below {
-            return 1.0;
+            return None;
         }
         let columns = 2 * self.nm.len() - 1;
         let x = ((y - self.base_y) * self.cells_per_m).clamp(0.0, CELLS as f64 - 1.0);
         let middle = columns / 2;
         let (q, total) = (self.q[x as usize * columns + middle], self.q[CELLS * columns + middle]);
         let e = EXTRAPOLATION as f32;
-        ((total - q + e - up) / (total + e)).max(LEAST_WORTH)
+        Some(((total - q + e - up) / (total + e)).max(LEAST_WORTH))
     }
 
     /// V seen from world y (infinite: from beyond the layer) along a direction whose upward component is `up`.

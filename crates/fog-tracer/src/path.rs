@@ -34,7 +34,9 @@ use fog_scene::sky_map::SkyLanes;
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
 /// Smallest probability of survival: bounds the weight of survivors.
-const ROULETTE_MIN: f32 = 0.3;
+const ROULETTE_MIN: f32 = 0.5;
+/// The same where the layer tells what a path is worth.
+const ROULETTE_MIN_KNOWN: f32 = 0.3;
 /// Throughput below which roulette is played where every path ends in an environment: faint paths still tell much.
 const ROULETTE_BELOW_SKY: f32 = 0.3;
 /// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
@@ -212,8 +214,8 @@ impl<'a> PathTracer<'a> {
                     }
                 }
             };
-            let below = self.roulette_below(&path);
-            if !goes_on || !survives_roulette(&mut path, below, rng, watch) {
+            let roulette = self.roulette(&path);
+            if !goes_on || !survives_roulette(&mut path, roulette, rng, watch) {
                 return out;
             }
             u = rng.flight();
@@ -454,10 +456,15 @@ pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut P
 
 /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
 #[inline]
-fn survives_roulette(path: &mut Path, below: f32, rng: &mut PathRng, watch: &mut impl Watch) -> bool {
+fn survives_roulette(
+    path: &mut Path,
+    [below, least]: [f32; 2],
+    rng: &mut PathRng,
+    watch: &mut impl Watch,
+) -> bool {
     let mean = path.r_u.mean();
     if path.depth > ROULETTE_DEPTH {
-        let survival = (path.beta.max_lane() / (mean * below)).max(ROULETTE_MIN);
+        let survival = (path.beta.max_lane() / (mean * below)).max(least);
         if survival < 1.0 {
             let survived = rng.uniform() < survival;
             watch.see(|| Step::Roulette { survival, survived });

@@ -1,6 +1,6 @@
 //! The layer's own light along a path: how the scene differs from it, and where a path is likely to find that out.
 
-use super::{Lanes, Path, PathRadiance, PathTracer};
+use super::{Lanes, Path, PathRadiance, PathTracer, ROULETTE_MIN, ROULETTE_MIN_KNOWN};
 use crate::layer_light::LayerLanes;
 use crate::watch::{Step, Watch};
 use fog_core::random::PathRng;
@@ -76,10 +76,13 @@ impl PathTracer<'_> {
         }
     }
 
-    /// Throughput below which roulette is played where the path is now.
+    /// Throughput below which roulette is played where the path is now, and the least probability of survival.
     #[inline(always)]
-    pub(super) fn roulette_below(&self, path: &Path) -> f32 {
-        let worth = self.layer_light.as_ref().map(|l| l.worth(f64::from(path.origin.y), path.direction.y));
-        self.roulette_below / worth.unwrap_or(1.0)
+    pub(super) fn roulette(&self, path: &Path) -> [f32; 2] {
+        let layer = self.layer_light.as_ref();
+        match layer.and_then(|layer| layer.worth(f64::from(path.origin.y), path.direction.y)) {
+            Some(worth) => [self.roulette_below / worth, ROULETTE_MIN_KNOWN],
+            None => [self.roulette_below, ROULETTE_MIN],
+        }
     }
 }
