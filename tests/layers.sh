@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 layer() {
   case $1 in
     fog-core) echo 0 ;;
-    fog-optics | fog-scene | fog-film | fog-plan) echo 1 ;;
+    fog-optics | fog-scene | fog-film | fog-plan | fog-denoise | fog-worlds) echo 1 ;;
     fog-tracer | fog-dataset | fog-figures) echo 2 ;;
     fogbank) echo 3 ;;
     fog-cli) echo 4 ;;
@@ -43,6 +43,7 @@ only exr "fog-dataset"
 only clap "fog-cli"
 only anyhow "fog-cli"
 only memmap2 "fogbank"
+only libloading "fog-denoise"
 only gltf "fog-scene"
 
 [ "$bad" = 0 ] && echo "layers: ok"

@@ -1,5 +1,6 @@
 //! Small scenes that several suites render.
 
+use fog_core::colour::{Observer, Rgb};
 use fog_core::diameter_choice::DiameterChoice;
 use fog_core::droplet_table::{DropletColumn, DropletTable};
 use fog_core::math;
@@ -7,7 +8,7 @@ use fog_core::optics_table::{OpticsTable, OpticsTableError, OpticsTableParts};
 use fog_core::phase::HenyeyGreenstein;
 use fog_core::phase_grid;
 use fog_core::profile::ExtinctionProfile;
-use fog_core::{Vec3, Vec3A, colour::Observer};
+use fog_core::{Vec3, Vec3A};
 use fog_film::Frame;
 use fog_scene::camera::{Camera, Pose};
 use fog_scene::medium::Medium;
@@ -221,4 +222,30 @@ pub fn white_street() -> Arc<LoadedScene> {
     let street = fog_scene::load(&crate::data("street_day.glb"), &Limits::default()).expect("scene loads");
     let materials = vec![lambertian(1.0); street.materials.len()];
     Arc::new(LoadedScene { materials, ..street })
+}
+
+/// A closed room of 10 m × 6 m × 14 m about the camera's place, on y = 0: every wall reflects and emits alike on both sides.
+#[must_use]
+pub fn enclosure(reflectance: Rgb, emission: Rgb) -> Arc<LoadedScene> {
+    let (low, high) = (Vec3::new(-5.0, 0.0, -9.0), Vec3::new(5.0, 6.0, 5.0));
+    let mut triangles = Vec::new();
+    for axis in 0..3 {
+        for end in [low, high] {
+            let corner = |u: bool, v: bool| {
+                let mut p = end;
+                for (k, far) in [((axis + 1) % 3, u), ((axis + 2) % 3, v)] {
+                    p[k] = if far { high[k] } else { low[k] };
+                }
+                p
+            };
+            let [a, b, c, d] =
+                [corner(false, false), corner(true, false), corner(true, true), corner(false, true)];
+            triangles.extend([Triangle::flat([a, b, c]), Triangle::flat([a, c, d])]);
+        }
+    }
+    let [r, g, b] = reflectance;
+    let wall =
+        Material { base_color: [r, g, b, 1.0], emissive: emission, double_sided: true, ..lambertian(0.0) };
+    let geometry = Geometry::new(triangles, Vec::new());
+    Arc::new(LoadedScene { geometry, materials: vec![wall], ..LoadedScene::default() })
 }

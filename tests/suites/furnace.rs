@@ -1,6 +1,10 @@
-//! White furnaces: in a uniform environment of radiance 1, nothing that only scatters can be seen.
+//! Furnaces. White: in a uniform environment of radiance 1, nothing that only scatters can be seen. Closed: among walls that
+//! emit E and reflect a, everything shines with E / (1 − a), whatever only scatters between them.
 
+use fog_core::colour::{Observer, Rgb, upsample};
 use fog_core::math;
+use fog_core::moments::Moments;
+use fog_core::spectrum::Wavelengths;
 use fog_optics::jendersie_deon;
 use fog_scene::light::Environment;
 use fog_scene::medium::Medium;
@@ -85,4 +89,68 @@ fn absorbing_fog_follows_its_closed_form() {
         / frame.pixel_count() as f64;
     let got = scenes::mean(&frame, 1);
     assert!((got - want).abs() < 4.0 * scenes::standard_error(&frame), "{got} for {want}");
+}
+
+/// The whole image has one expected colour; its pixels' scatter tells the error of their mean.
+fn assert_colour(name: &str, scene: &Scene, samples: u64, want: [f64; 3], resolution: f64) {
+    let camera = scenes::camera(1.7, 30.0, -5.0, 24, 16, 80.0);
+    let frame = scenes::render(scene, &camera, samples, None, 9);
+    for c in 0..3 {
+        let mut pixels = Moments::default();
+        (0..frame.pixel_count()).for_each(|i| pixels.add(f64::from(frame.image(i)[c])));
+        let (got, error) = (pixels.mean(), pixels.standard_error());
+        // 1e-4 covers single precision where nothing is noisy.
+        let off = (got - want[c]).abs();
+        assert!(off < 4.5 * error + 1e-4 * want[c], "{name}, channel {c}: {got} ± {error} for {}", want[c]);
+        assert!(error < resolution * want[c], "{name}, channel {c}: too noisy to tell, {got} ± {error}");
+    }
+}
+
+/// E / (1 − a) at every wavelength, seen by the observer.
+fn enclosed(reflectance: Rgb, emission: Rgb) -> [f64; 3] {
+    let observer = Observer::new();
+    observer.rgb_of(|nm| {
+        let basis = observer.lane_basis(&Wavelengths::monochromatic(nm));
+        upsample(emission, &basis)[0] / (1.0 - upsample(reflectance, &basis)[0])
+    })
+}
+
+#[test]
+fn closed_furnace_shines_with_its_sum() {
+    for reflectance in [0.0, 0.5, 0.8, 0.95] {
+        let scene = Scene::new(scenes::enclosure([reflectance; 3], [1.0; 3]), None, None, None, true);
+        // 1 of sRGB is 1 at every wavelength within 0.3 %; the sum over reflections makes 20 times as much of it.
+        let want = enclosed([reflectance; 3], [1.0; 3]);
+        let sum = 1.0 / (1.0 - f64::from(reflectance));
+        assert!((want[1] / sum - 1.0).abs() < 0.01, "{want:?} for {sum}");
+        assert_colour(&format!("walls of {reflectance}"), &scene, 256, want, 0.01);
+    }
+}
+
+#[test]
+fn coloured_furnaces() {
+    let (reflectance, emission) = ([0.8, 0.5, 0.2], [0.2, 0.5, 0.3]);
+    let want = enclosed(reflectance, emission);
+    let grey = scenes::hg_fog(scenes::grey_profile(6.0, &[0.05, 0.2], 1.0), 0.83);
+    for (name, fog) in [
+        ("clear air", None),
+        ("grey fog", Some(grey)),
+        ("coloured fog", Some(scenes::coloured_fog(6.0, 0.1, 1.0))),
+        ("single droplets", Some(scenes::parcel(6.0, 0.1, true))),
+    ] {
+        let scene = Scene::new(scenes::enclosure(reflectance, emission), fog, None, None, true);
+        assert_colour(&format!("coloured walls in {name}"), &scene, 512, want, 0.01);
+    }
+    // Of a white environment, a convex surface shows its own reflectance in every channel.
+    let mut ground = (*scenes::lambertian_ground(0.0)).clone();
+    ground.materials[0].base_color = [0.9, 0.4, 0.1, 1.0];
+    let scene = Scene::new(ground.into(), None, WHITE, None, false);
+    let camera = scenes::camera(2.0, 0.0, -90.0, 24, 16, 60.0);
+    let frame = scenes::render(&scene, &camera, 256, None, 4);
+    for (c, want) in [0.9, 0.4, 0.1].into_iter().enumerate() {
+        let mut pixels = Moments::default();
+        (0..frame.pixel_count()).for_each(|i| pixels.add(f64::from(frame.image(i)[c])));
+        let (got, error) = (pixels.mean(), pixels.standard_error());
+        assert!((got - want).abs() < 4.5 * error + 1e-4, "ground, channel {c}: {got} ± {error} for {want}");
+    }
 }

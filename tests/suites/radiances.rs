@@ -21,7 +21,7 @@ use rayon::prelude::*;
 const BEAM_DEG: f64 = 2.0;
 
 /// Light that travels with this direction cosine to the vertical and azimuth from the beam's own (which is −Z).
-fn travel(mu: f64, phi_deg: f64) -> Vec3A {
+pub(crate) fn travel(mu: f64, phi_deg: f64) -> Vec3A {
     let s = (1.0 - mu * mu).sqrt();
     let phi = phi_deg.to_radians();
     Vec3A::new((s * math::f64::sin(phi)) as f32, mu as f32, (-s * math::f64::cos(phi)) as f32).normalize()

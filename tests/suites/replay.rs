@@ -2,6 +2,7 @@
 
 use fog_core::Vec3A;
 use fog_core::colour::Observer;
+use fog_core::patchiness::{Patchiness, PatchyField};
 use fog_core::spectrum::Spectrum;
 use fog_scene::LoadedScene;
 use fog_scene::lamp::{Lamp, PunctualLights};
@@ -18,12 +19,16 @@ fn replays_are_what_the_film_got() {
     let environment = Some(Environment { radiance: 1.0 });
     let sun = Some(Sun::new(35.0, 150.0, 2.0, 0.53));
     let coloured = || Some(scenes::coloured_fog(40.0, 0.05, 0.9));
+    let patches = Patchiness { density_sd: 0.5, top_sd_m: 2.0, length_m: 50.0, octaves: 2, seed: 1 };
+    let field = PatchyField::new(patches).expect("parameters");
+    let patchy = coloured().map(|fog| fog.with_patches(field).expect("thick enough"));
     let (mut collisions, mut free, mut blocked, mut roulette) = (0, 0, 0, 0);
     for (name, fog, environment, sun, emitters, wavelength_nm) in [
         ("street_day.glb", coloured(), environment, sun, true, None),
         ("street_grey_night.glb", coloured(), None, None, true, None),
         ("street_day.glb", Some(scenes::parcel(40.0, 0.05, true)), environment, None, false, Some(600.0)),
         ("street_grey_night.glb", None, None, sun, true, None),
+        ("street_day.glb", patchy, environment, sun, true, None),
     ] {
         let scene = Scene::new(scenes::load(name), fog, environment, sun, emitters);
         let camera = scenes::camera(1.7, 10.0, -3.0, 32, 18, 60.0);

@@ -5,10 +5,12 @@ use fog_core::phase::HenyeyGreenstein;
 use fog_core::profile::ExtinctionProfile;
 use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
-use fog_core::{Vec3A, math, phase_grid};
+use fog_core::{Vec3A, math, phase_grid, warp};
 use fog_optics::advection::AdvectionModel;
 use fog_scene::SurfaceParameters;
 use fog_scene::bsdf::Bsdf;
+use fog_scene::emitters::{EmitterTriangle, Emitters};
+use fog_scene::light::Sun;
 use fog_scene::phase::{Phase, PhaseNodes};
 use fog_tests::chi_square::assert_follows;
 
@@ -204,4 +206,123 @@ fn wavelengths() {
         let expected = vec![SAMPLES as f64 / CELLS as f64; CELLS];
         assert_follows(&format!("wavelength lane {lane}"), &observed, &expected, 3);
     }
+}
+
+/// Directions about +Z in cells of equal solid angle, over m = 1 − z from 0 to `range`, against a density in 1/sr.
+fn assert_directions(
+    name: &str,
+    range: f32,
+    sample: impl Fn(&mut PathRng) -> Vec3A,
+    density: impl Fn(Vec3A) -> f64,
+) {
+    const ROWS: usize = 20;
+    const COLUMNS: usize = 20;
+    const FINE: usize = 10;
+    const FAMILY: usize = 5;
+    let mut expected = vec![0.0; ROWS * COLUMNS];
+    let step = f64::from(range) * math::TAU / (ROWS * COLUMNS * FINE * FINE) as f64;
+    for i in 0..ROWS * FINE {
+        let m = range * (i as f32 + 0.5) / (ROWS * FINE) as f32;
+        for j in 0..COLUMNS * FINE {
+            let phi = ((j as f32 + 0.5) / (COLUMNS * FINE) as f32 - 0.5) * math::TAU_F32;
+            let w = warp::spherical(1.0 - m, (m * (2.0 - m)).sqrt(), phi);
+            expected[i / FINE * COLUMNS + j / FINE] += density(w) * step * SAMPLES as f64;
+        }
+    }
+    let total: f64 = expected.iter().sum::<f64>() / SAMPLES as f64;
+    assert!((total - 1.0).abs() < 1e-3, "{name}: density integrates to {total}");
+    let mut observed = vec![0u64; expected.len()];
+    let mut rng = PathRng::new(43, 0, 0);
+    for _ in 0..SAMPLES {
+        let w = sample(&mut rng);
+        assert!((w.length() - 1.0).abs() < 1e-5, "{name}: {w} has no unit length");
+        // Near the axis z does not tell m, but x² + y² does.
+        let across = w.x * w.x + w.y * w.y;
+        let m = if w.z > 0.0 { across / (1.0 + (1.0 - across).max(0.0).sqrt()) } else { 1.0 - w.z };
+        let row = ((m / range * ROWS as f32) as usize).min(ROWS - 1);
+        let turn = math::f32::atan2(w.y, w.x) / math::TAU_F32 + 0.5;
+        observed[row * COLUMNS + ((turn * COLUMNS as f32) as usize).min(COLUMNS - 1)] += 1;
+    }
+    assert_follows(name, &observed, &expected, FAMILY);
+}
+
+#[test]
+fn directions() {
+    let pi = std::f64::consts::PI;
+    assert_directions("cosine", 1.0, |r| warp::cosine_hemisphere(r.uniform2()), |w| f64::from(w.z) / pi);
+    assert_directions("sphere", 2.0, |r| warp::uniform_sphere(r.uniform2()), |_| 0.25 / pi);
+    for m in [0.3, 1e-5] {
+        let density = f64::from(warp::uniform_cone_pdf(m));
+        assert_directions("cone", m, |r| warp::uniform_cone(r.uniform2(), m), |_| density);
+    }
+    // The sun's disc, seen in a frame about its centre.
+    let sun = Sun::new(35.0, 150.0, 1.0, 5.0);
+    let local = warp::frame(sun.direction).transpose();
+    let density = f64::from(sun.pdf());
+    assert_directions("sun", sun.one_minus_cos, |r| local * sun.sample(r.uniform2()), |_| density);
+}
+
+#[test]
+fn points_of_emitters() {
+    // Three triangles of other sizes and powers; cells are thirds along both edges of each.
+    let corners = |x: f32, a: f32, b: f32| [Vec3A::X * x, Vec3A::X * (x + a), Vec3A::X * x + Vec3A::Y * b];
+    let triangles = [
+        (1, corners(0.0, 2.0, 1.0), 3.0),
+        (4, corners(10.0, 0.5, 4.0), 1.0),
+        (6, corners(20.0, 3.0, 3.0), 7.0),
+    ];
+    let emitters = Emitters::new(
+        triangles
+            .iter()
+            .map(|&(triangle, corners, power)| EmitterTriangle { triangle, corners, power })
+            .collect(),
+        8,
+    );
+    const SIDE: usize = 6;
+    let cell = |[u, v]: [f32; 2]| {
+        let index = |x: f32| ((x * SIDE as f32) as usize).min(SIDE - 1);
+        index(u) * SIDE + index(v)
+    };
+    let mut expected = vec![0.0; 3 * SIDE * SIDE];
+    for (k, &(triangle, [a, b, c], _)) in triangles.iter().enumerate() {
+        let area = 0.5 * f64::from((b - a).cross(c - a).length());
+        let mass = f64::from(emitters.pdf_area(triangle)) * area * SAMPLES as f64;
+        // Share of the triangle in each cell: the diagonal halves those that it crosses.
+        for i in 0..SIDE {
+            for j in 0..SIDE - i {
+                let share = if i + j + 1 == SIDE { 0.5 } else { 1.0 };
+                expected[k * SIDE * SIDE + i * SIDE + j] = mass * share * 2.0 / (SIDE * SIDE) as f64;
+            }
+        }
+    }
+    let mut observed = vec![0u64; expected.len()];
+    let mut rng = PathRng::new(47, 0, 0);
+    for _ in 0..SAMPLES {
+        let point = emitters.sample(rng.uniform(), rng.uniform2()).unwrap();
+        let k = triangles.iter().position(|t| t.0 == point.triangle).unwrap();
+        let [a, b, c] = triangles[k].1;
+        let [u, v] = point.barycentric;
+        assert!((point.position - (a + (b - a) * u + (c - a) * v)).length() < 1e-5);
+        assert_eq!(point.pdf_area, emitters.pdf_area(point.triangle));
+        observed[k * SIDE * SIDE + cell(point.barycentric)] += 1;
+    }
+    assert_follows("points of emitters", &observed, &expected, 1);
+}
+
+#[test]
+fn stratified_dimensions_are_uniform_together() {
+    // Position in the pixel, wavelength and first flight of many pixels: cells of the four dimensions by three.
+    let mut observed = vec![0u64; 81];
+    let (pixels, samples) = (20_000u64, 16u64);
+    for pixel in 0..pixels {
+        for s in 0..samples {
+            let p = fog_core::random::stratified(5, pixel, s);
+            let [x, y] = p.pixel;
+            let cell = [x, y, p.wavelength, p.flight].iter().fold(0, |cell, u| cell * 3 + (u * 3.0) as usize);
+            observed[cell] += 1;
+        }
+    }
+    let expected = vec![(pixels * samples) as f64 / 81.0; 81];
+    // The samples of a pixel are more even than independent ones, so that the statistic is small if it is not large.
+    assert_follows("first dimensions", &observed, &expected, 1);
 }

@@ -9,6 +9,7 @@ mod mie;
 mod number;
 mod optics;
 mod replay;
+mod scene;
 mod visibility;
 
 pub(crate) use compare::CompareArgs;
@@ -19,6 +20,7 @@ pub(crate) use form::FormArgs;
 pub(crate) use mie::MieArgs;
 pub(crate) use optics::OpticsArgs;
 pub(crate) use replay::ReplayArgs;
+pub(crate) use scene::{ApproachArg, SceneArgs, SceneCommand, SceneFileArgs, StyleArg};
 pub(crate) use visibility::{EditionArg, VisibilityArgs};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
@@ -55,7 +57,7 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// Print the JSON Schema of configurations, for editors.
     Schema,
-    /// Write one of the built-in scenes as a GLB file.
+    /// Make a scene by formula: a street, a town, a motorway, a runway, targets.
     Scene(SceneArgs),
     /// Fit a fog model to measured droplet counts.
     Fit(FitArgs),
@@ -97,6 +99,10 @@ pub(crate) struct WorkArgs {
     /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder].
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
+    /// Library of Open Image Denoise 2, or its folder, for the output `denoised` [default: the environment variable
+    /// FOGBANK_OIDN, else where the system looks for libraries].
+    #[arg(long, value_name = "PATH")]
+    pub(crate) oidn: Option<PathBuf>,
     /// Print errors only.
     #[arg(long, short)]
     pub(crate) quiet: bool,
@@ -131,17 +137,6 @@ pub(crate) struct PlanArgs {
     /// Print every frame with all its values, one JSON object per line.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Arguments of `scene`.
-#[derive(Debug, ClapArgs)]
-pub(crate) struct SceneArgs {
-    /// Name of the scene.
-    #[arg(value_parser = clap::builder::PossibleValuesParser::new(fogbank::generate::NAMES))]
-    pub(crate) name: String,
-    /// File to write [default: NAME.glb].
-    #[arg(long, value_name = "FILE")]
-    pub(crate) out: Option<PathBuf>,
 }
 
 /// Arguments of `verify`.

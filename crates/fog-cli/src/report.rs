@@ -170,6 +170,9 @@ impl Progress for Reporter {
                     self.say(&format!("  warning: {warning}"));
                 }
             }
+            Event::Denoiser { path, version } => {
+                self.say(&format!("Open Image Denoise {version}: {}", path.display()));
+            }
             Event::Warning(text) => self.say(&format!("warning: {text}")),
             Event::Ready { done, paths, todo } => {
                 if done > 0 {

@@ -18,9 +18,12 @@
 //! Functions of (seed, position) and nothing else, with the same bits on every machine. A value costs about 25 ns per octave
 //! (baseline x86-64), the density some 20 ns more.
 
+mod along;
+mod fog;
 mod layer;
 mod waves;
 
+pub use fog::{Crossed, PatchyFog};
 pub use layer::PatchyLayer;
 
 use crate::math::f64::{exp, ln};

@@ -84,6 +84,40 @@ pub struct Span {
     pub exit: f64,
 }
 
+impl Span {
+    /// Part of the ray y = y0 + t·dy, 0 ≤ t ≤ t_max, between two heights.
+    #[inline(always)]
+    pub(crate) fn between([low, high]: [f64; 2], y0: f64, dy: f64, t_max: f64) -> Option<Self> {
+        let (mut enter, mut exit) = (0.0, t_max);
+        if dy != 0.0 {
+            let (a, b) = ((low - y0) / dy, (high - y0) / dy);
+            enter = a.min(b).max(0.0);
+            exit = a.max(b).min(t_max);
+        } else if y0 < low || y0 > high {
+            return None;
+        }
+        (enter < exit).then_some(Self { enter, exit })
+    }
+}
+
+/// Optical depth of a way through a profile before its wavelengths are put in: of each product of the extinction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ProductDepths([f64; MAX_RANK]);
+
+impl ProductDepths {
+    pub(crate) const ZERO: Self = Self([0.0; MAX_RANK]);
+
+    #[inline(always)]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self(self.0.map(|depth| depth * factor))
+    }
+
+    #[inline(always)]
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
 impl ExtinctionProfile {
     /// Profile over `datum_m` (world y of altitude 0) from rows over altitude: `sigma_t_1_m` and `albedo` are
     /// \[altitude\]\[wavelength\].
@@ -189,6 +223,12 @@ impl ExtinctionProfile {
         ((y - self.datum_m - bottom) / height).clamp(0.0, 1.0) as f32
     }
 
+    /// The greatest σ_t of the layer in 1/m at the hero (lane 0).
+    #[must_use]
+    pub fn largest_sigma_t(&self, lanes: &ProfileLanes) -> f64 {
+        self.nodes.iter().map(|node| self.hero(&node.sigma, lanes)).fold(0.0, f64::max)
+    }
+
     /// Wavelengths of the rows, in nm.
     #[must_use]
     pub fn wavelengths_nm(&self) -> &[f64] {
@@ -199,16 +239,7 @@ impl ExtinctionProfile {
     #[inline]
     #[must_use]
     pub fn clip(&self, y0: f64, dy: f64, t_max: f64) -> Option<Span> {
-        let (base, top) = (self.base_y(), self.top_y());
-        let (mut enter, mut exit) = (0.0, t_max);
-        if dy != 0.0 {
-            let (a, b) = ((base - y0) / dy, (top - y0) / dy);
-            enter = a.min(b).max(0.0);
-            exit = a.max(b).min(t_max);
-        } else if y0 < base || y0 > top {
-            return None;
-        }
-        (enter < exit).then_some(Span { enter, exit })
+        Span::between([self.base_y(), self.top_y()], y0, dy, t_max)
     }
 
     /// Finds a path's wavelengths in the tables.
@@ -313,6 +344,31 @@ impl ExtinctionProfile {
         self.clip(y0, dy, t_max).map_or(Spectrum::ZERO, |span| {
             Self::combine(&self.depth_products(y0, dy, span), self.extinction.rank, &lanes.extinction)
         })
+    }
+
+    /// [`ExtinctionProfile::optical_depth`] of each product.
+    #[inline]
+    pub(crate) fn product_depths(&self, y0: f64, dy: f64, t_max: f64) -> ProductDepths {
+        let (base, top, y1) = (self.base_y(), self.top_y(), rise(y0, dy, t_max));
+        if (y0 >= top && y1 >= top) || (y0 <= base && y1 <= base) {
+            return ProductDepths::ZERO;
+        }
+        let inside = y0.min(y1) >= base && y0.max(y1) <= top;
+        let whole = Some(Span { enter: 0.0, exit: t_max });
+        let span = if inside { whole } else { self.clip(y0, dy, t_max) };
+        span.map_or(ProductDepths::ZERO, |span| ProductDepths(self.depth_products(y0, dy, span)))
+    }
+
+    /// Depth at the hero (lane 0).
+    #[inline]
+    pub(crate) fn hero_depth(&self, depths: &ProductDepths, lanes: &ProfileLanes) -> f64 {
+        self.hero(&depths.0, lanes).max(0.0)
+    }
+
+    /// Depth at all lanes.
+    #[inline]
+    pub(crate) fn lane_depths(&self, depths: &ProductDepths, lanes: &ProfileLanes) -> Spectrum {
+        Self::combine(&depths.0, self.extinction.rank, &lanes.extinction)
     }
 
     /// [`ExtinctionProfile::optical_depth`] at the hero wavelength (lane 0) alone.

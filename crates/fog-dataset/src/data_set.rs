@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::header::{FORMAT, FORMAT_VERSION, Header};
 use crate::marker::{Check, FileEntry, Marker};
 use crate::names::{CONFIG, HEADER, Kind, PLAN};
-use crate::{Error, FrameFiles, PlanFrame, Result, atomic, encode, index, plan};
+use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan};
 
 /// What a data set is made from.
 #[derive(Clone, Debug)]
@@ -204,6 +204,9 @@ impl DataSet {
             let content = encode::hashed(kind, files, outputs, &self.dir.join(&name))?;
             atomic::write(&self.dir, &name, &content)?;
             entries.push(FileEntry::of(name, &content));
+        }
+        if outputs.denoised {
+            denoised::write(&self.dir, files)?;
         }
         atomic::write(&self.dir, &Kind::Timing.file(files.id), &encode::timing(files))?;
         // The files must be on the disk under their names before the marker says so.

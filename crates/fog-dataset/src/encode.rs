@@ -18,7 +18,7 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
             let frame = files.frame;
             png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path)
         }
-        Kind::Hdr => encode(picture(files, layers::radiance(files.frame, outputs), true), path),
+        Kind::Hdr => radiance(files, layers::radiance(files.frame, outputs), path),
         Kind::Truth => encode(picture(files, layers::truth(files.frame, outputs), false), path),
         _ => Ok(pretty(files.record)),
     }
@@ -43,6 +43,15 @@ pub(crate) fn png(width: u32, height: u32, bytes: &[u8], path: &Path) -> Result<
         .write_image(bytes, width, height, ExtendedColorType::Rgb8)
         .map_err(Error::picture("encode", path))?;
     Ok(out)
+}
+
+/// An EXR file of radiance; `path` is only for messages.
+pub(crate) fn radiance(
+    files: &FrameFiles<'_>,
+    channels: Vec<(String, Vec<f32>)>,
+    path: &Path,
+) -> Result<Vec<u8>> {
+    encode(picture(files, channels, true), path)
 }
 
 fn picture(files: &FrameFiles<'_>, channels: Vec<(String, Vec<f32>)>, radiance: bool) -> Picture {

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use fog_core::colour::Rgb;
 use fog_film::Frame;
+use serde_json::Value;
 
 use crate::Attribute;
 
-/// A rendered frame and what is stored with it. Everything but `seconds` must be a function of the frame's place in the
+/// A rendered frame and what is stored with it. Everything but `seconds` and `denoised` must be a function of the frame's place in the
 /// plan and the code, or two runs differ.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameFiles<'a> {
@@ -18,9 +20,21 @@ pub struct FrameFiles<'a> {
     pub record: &'a serde_json::Value,
     /// Factor from radiance to the 8-bit picture, whose white is 1.
     pub exposure: f32,
+    /// The picture without its noise, where the frame's outputs ask for it.
+    pub denoised: Option<&'a DenoisedPicture>,
     /// Seconds that the frame took; go to `<id>.timing.json` only.
     pub seconds: f64,
     /// Custom attributes for the EXR files (camera pose, intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
     /// and `wavelength_nm` are set here and win.
     pub attributes: &'a BTreeMap<String, Attribute>,
+}
+
+/// An estimate of a frame's radiance without its noise. It may depend on more than the frame: its files are no part of what
+/// two runs have in common, and the frame's marker does not know their content.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DenoisedPicture {
+    /// One triple per pixel; of mono frames all three are the radiance.
+    pub rgb: Vec<Rgb>,
+    /// How it was made, a JSON object for `<id>.denoised.json`.
+    pub details: Value,
 }

@@ -1,5 +1,6 @@
 //! From a frame to the named channels of its EXR files.
 
+use fog_core::colour::Rgb;
 use fog_film::{Channels, Frame};
 
 use crate::OutputSet;
@@ -35,6 +36,11 @@ pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f3
         }
     }
     out
+}
+
+/// Channels of `<id>.denoised.exr`.
+pub(crate) fn denoised(frame: &Frame, rgb: &[Rgb]) -> Vec<(String, Vec<f32>)> {
+    colour(frame, "", |i| rgb[i])
 }
 
 /// Channels of `<id>.gt.exr` that the outputs ask for.

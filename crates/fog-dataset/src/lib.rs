@@ -12,18 +12,21 @@
 //! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
 //! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
 //! | `<id>.json` | the frame's record |
-//! | `<id>.timing.json` | seconds: the only file that differs between two runs |
+//! | `<id>.denoised.exr`, `.denoised.png` | a guess at the radiance without its noise (`denoised`), and its sRGB picture |
+//! | `<id>.denoised.json` | what guessed it, and the hashes of these two |
+//! | `<id>.timing.json` | seconds |
 //! | `<id>.done` | marker: size and BLAKE3 hash of the frame's files; written last |
 //! | `<id>.failed.json` | why the frame failed; gone when it later succeeds |
 //! | `index.csv` | one line per frame of the plan, written by [`DataSet::finish`] |
 //!
 //! Every file is written aside, synced and renamed, so that it appears only when whole. Several processes may work in
 //! one folder: a frame's bytes depend on the frame alone, so it does not matter which of two writers wins. All bytes but
-//! the timings are reproducible; nothing here reads the clock but the age check of abandoned temporary files on
+//! the timings are reproducible, those of `denoised` with the same library on the same kind of processor only; nothing here reads the clock but the age check of abandoned temporary files on
 //! file systems without locks.
 
 mod atomic;
 mod data_set;
+mod denoised;
 mod encode;
 mod error;
 mod estimate;
@@ -45,7 +48,7 @@ pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
 pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
-pub use frame_files::FrameFiles;
+pub use frame_files::{DenoisedPicture, FrameFiles};
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use outputs::OutputSet;

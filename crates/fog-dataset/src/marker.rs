@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::names::Kind;
-use crate::{Error, OutputSet, Result};
+use crate::{Error, OutputSet, Result, denoised};
 
 /// Size and hash of a file of the data set.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,7 +30,7 @@ pub struct Marker {
     pub config_digest: String,
     /// Digest of the code that rendered it.
     pub code_digest: String,
-    /// The frame's files, but for the timings.
+    /// The frame's files, but for the timings and a denoised picture.
     pub files: Vec<FileEntry>,
 }
 
@@ -101,6 +101,9 @@ impl Marker {
                 Some(entry) => faults.extend(entry.fault(dir, check).map(|fault| (name, fault))),
                 None => faults.push((name, "is not in the frame's marker".to_owned())),
             }
+        }
+        if outputs.denoised {
+            faults.extend(denoised::faults(dir, &self.id, check));
         }
         faults
     }

@@ -14,6 +14,9 @@ pub(crate) enum Kind {
     Hdr,
     Truth,
     Record,
+    Denoised,
+    DenoisedImage,
+    Denoising,
     Timing,
     Done,
     Failed,
@@ -23,6 +26,10 @@ impl Kind {
     /// The kinds that hold the frame and are hashed, in the order in which they are written.
     pub(crate) const HASHED: [Self; 4] = [Self::Image, Self::Hdr, Self::Truth, Self::Record];
 
+    /// The kinds that depend on more than the frame: on a library and the processor. Of two pictures and their record,
+    /// which has their hashes, the record is written last.
+    pub(crate) const DENOISED: [Self; 2] = [Self::Denoised, Self::DenoisedImage];
+
     /// File name of this kind for a frame.
     pub(crate) fn file(self, id: &str) -> String {
         let suffix = match self {
@@ -30,6 +37,9 @@ impl Kind {
             Self::Hdr => "hdr.exr",
             Self::Truth => "gt.exr",
             Self::Record => "json",
+            Self::Denoised => "denoised.exr",
+            Self::DenoisedImage => "denoised.png",
+            Self::Denoising => "denoised.json",
             Self::Timing => "timing.json",
             Self::Done => "done",
             Self::Failed => "failed.json",
@@ -60,8 +70,8 @@ pub(crate) fn check_id(id: &str) -> Result<()> {
     if !id.as_bytes()[0].is_ascii_alphanumeric() {
         return bad("it must begin with a letter or digit");
     }
-    if id == "dataset" || id.ends_with(".timing") || id.ends_with(".failed") {
-        return bad("`dataset` and names ending in `.timing` or `.failed` are taken");
+    if id == "dataset" || [".timing", ".failed", ".denoised"].iter().any(|taken| id.ends_with(taken)) {
+        return bad("`dataset` and names ending in `.timing`, `.failed` or `.denoised` are taken");
     }
     Ok(())
 }
@@ -76,9 +86,20 @@ mod tests {
             assert!(check_id(good).is_ok(), "{good}");
         }
         let long = "x".repeat(201);
-        for bad in
-            ["", "../a", "a/b", "a\\b", ".hidden", "dataset", "a.timing", "a.failed", "ä", "a b", &long]
-        {
+        for bad in [
+            "",
+            "../a",
+            "a/b",
+            "a\\b",
+            ".hidden",
+            "dataset",
+            "a.timing",
+            "a.failed",
+            "a.denoised",
+            "ä",
+            "a b",
+            &long,
+        ] {
             assert!(check_id(bad).is_err(), "{bad}");
         }
     }

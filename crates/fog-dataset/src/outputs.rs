@@ -30,11 +30,13 @@ pub struct OutputSet {
     pub samples: bool,
     /// The radiance by groups of lights.
     pub groups: bool,
+    /// Estimate of the radiance without its noise.
+    pub denoised: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 11] = [
+    pub const NAMES: [&'static str; 12] = [
         "image",
         "hdr",
         "depth",
@@ -46,6 +48,7 @@ impl OutputSet {
         "standard_error",
         "samples",
         "groups",
+        "denoised",
     ];
 
     /// Every output.
@@ -104,6 +107,7 @@ impl OutputSet {
             "standard_error" => &mut self.standard_error,
             "samples" => &mut self.samples,
             "groups" => &mut self.groups,
+            "denoised" => &mut self.denoised,
             _ => return None,
         })
     }

@@ -7,8 +7,8 @@ use crate::{
     node::{Entry, Node, Value},
     origin::Origin,
     schema::{
-        CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, RenderFile, SensorFile,
-        SunFile, SweepFile, VerticalFile,
+        CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, PatchinessFile, RenderFile,
+        SensorFile, SunFile, SweepFile, VerticalFile,
     },
     validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
@@ -49,6 +49,9 @@ pub(crate) fn fill_model(root: &mut Node) {
 
 fn fill_fog(fog: &mut Node) {
     merge(fog, &FogFile::default());
+    if let Some(patchiness) = fog.child_mut("patchiness") {
+        merge(patchiness, &PatchinessFile::default());
+    }
 }
 
 fn fill_lighting(lighting: &mut Node) {

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
+    patchiness::PatchinessSpec,
 };
 
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
@@ -77,6 +78,9 @@ pub struct FogSpec {
     pub sampling: Sampling,
     /// Scales extinction so that the layer has this visibility.
     pub visibility: Option<Visibility>,
+    /// Random billows; absent, and then not written: the layer is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub patchiness: Option<PatchinessSpec>,
     /// World height (y) of altitude 0, in metres; −500 to 9000.
     pub datum_m: f64,
 }
@@ -372,4 +376,6 @@ pub enum Output {
     StandardError,
     /// Number of samples of each pixel.
     Samples,
+    /// An estimate of `Hdr`, which is then there too, without its noise.
+    Denoised,
 }

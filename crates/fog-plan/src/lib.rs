@@ -23,6 +23,7 @@ mod light_groups;
 mod load;
 mod node;
 mod origin;
+mod patchiness;
 mod plan;
 mod ranges;
 mod read;
@@ -42,5 +43,6 @@ pub use frame::{
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
+pub use patchiness::PatchinessSpec;
 pub use plan::{AxisSummary, Plan};
 pub use schema::schema_json;

@@ -23,7 +23,7 @@ fn unknown_keys() {
         [
             "configs/x.yaml:8:3: fog.heigth_m: unknown key; expected one of model, height_m, number_density_scale, \
              coefficients, droplets, number_density_1_m3, vertical, sigma_t_1_m, sigma_t_base_1_m, sigma_t_top_1_m, file, \
-             single_scattering_albedo, phase, coefficient, sampling, visibility, datum_m; \
+             single_scattering_albedo, phase, coefficient, sampling, visibility, patchiness, datum_m; \
              did you mean `height_m`?"
         ]
     );
@@ -122,7 +122,7 @@ fn unknown_values() {
         errors("fog: none\noutputs: [image, image, tua]\n"),
         [
             "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
-          transmittance, tau, direct, airlight, standard_error, samples; did you mean `tau`?"
+          transmittance, tau, direct, airlight, standard_error, samples, denoised; did you mean `tau`?"
         ]
     );
     assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);
@@ -601,4 +601,38 @@ fn sampling_by_noise() {
             "configs/x.yaml:6:33: render.max_samples: 0 is out of range; valid: 1 to 1000000"
         ]
     );
+}
+
+#[test]
+fn patchiness() {
+    let fog = |keys: &str| {
+        errors(&format!("fog: {{model: homogeneous, height_m: 50, sigma_t_1_m: 0.1, patchiness: {keys}}}\n"))
+    };
+    for (keys, message) in [
+        ("{density_sd: 3, length_m: 100}", "84: fog.patchiness.density_sd: 3 is out of range; valid: 0 to 2"),
+        (
+            "{density_sd: 1}",
+            "71: fog.patchiness.length_m: missing; the distance between the largest patches, 1 to 100000 m",
+        ),
+        (
+            "{density_sd: 1, length_m: 0.5}",
+            "97: fog.patchiness.length_m: 0.5 m is out of range; valid: 1 to 100000 m",
+        ),
+        (
+            "{length_m: 100}",
+            "71: fog.patchiness: density_sd and top_sd_m are both 0; give one of them, or `none` for even fog",
+        ),
+        (
+            "{density_sd: 1, length_m: 20, octaves: 6}",
+            "110: fog.patchiness.octaves: 6 octaves below 20 m reach down to 0.312 m; valid: 0.5 m and more",
+        ),
+        (
+            "{density_sd: 1, length_m: 20, octaves: 9}",
+            "110: fog.patchiness.octaves: 9 is out of range; valid: 1 to 8",
+        ),
+    ] {
+        assert_eq!(fog(keys), [format!("configs/x.yaml:6:{message}")], "{keys}");
+    }
+    let [thin] = &fog("{top_sd_m: 20, length_m: 100}")[..] else { panic!("one problem") };
+    assert!(thin.contains("fog.patchiness.top_sd_m: ") && thin.contains("layer's 50 m"), "{thin}");
 }

@@ -3,7 +3,7 @@
 mod attributes;
 mod bvh;
 mod error;
-pub mod generate;
+mod features;
 mod geometry;
 mod gltf_load;
 mod material;
@@ -14,6 +14,7 @@ mod uv_transform;
 pub use attributes::CornerValues;
 pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
+pub use features::Features;
 pub use geometry::Geometry;
 pub use gltf_load::{Limits, LoadedScene, SceneObject, load};
 pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef};

@@ -1,34 +1,77 @@
 //! The fog as the tracer sees it: extinction by altitude, and a phase function.
 
 use crate::phase::{Phase, PhaseNodes, PhaseView};
+use fog_core::Vec3A;
+use fog_core::patchiness::{PatchinessError, PatchyField, PatchyFog};
 use fog_core::profile::{ExtinctionProfile, ProfileLanes};
 use fog_core::spectrum::{LaneWeights, Wavelengths};
 
-/// A horizontally even layer of fog.
+/// A layer of fog: horizontally even, or patchy about an even one.
 #[derive(Clone, Debug)]
 pub struct Medium {
     profile: ExtinctionProfile,
+    patches: Option<PatchyField>,
     phase: Phase,
     nodes: PhaseNodes,
 }
 
 impl Medium {
-    /// A layer with this extinction and phase function.
+    /// An even layer with this extinction and phase function.
     #[must_use]
     pub fn new(profile: ExtinctionProfile, phase: Phase) -> Self {
-        Self { profile, phase, nodes: PhaseNodes::default() }
+        Self { profile, patches: None, phase, nodes: PhaseNodes::default() }
     }
 
-    /// True if frames in this fog and others can share paths: its densities can be told at any point, without drawing.
+    /// The same layer made patchy by a field.
+    ///
+    /// # Errors
+    /// If the top's displacement can leave less than a tenth of the layer's thickness.
+    pub fn with_patches(mut self, field: PatchyField) -> Result<Self, PatchinessError> {
+        PatchyFog::new(&self.profile, &field)?;
+        self.patches = Some(field);
+        Ok(self)
+    }
+
+    /// True if frames in this fog and others can share paths: its densities can be told at any point, without drawing,
+    /// and by altitude alone.
     #[must_use]
     pub fn can_share(&self) -> bool {
-        self.phase.has_rows()
+        self.patches.is_none() && self.phase.has_rows()
     }
 
-    /// Extinction and albedo by altitude.
+    /// Extinction and albedo by altitude: of the even layer, where the fog is patchy.
     #[must_use]
     pub fn profile(&self) -> &ExtinctionProfile {
         &self.profile
+    }
+
+    /// What makes the layer patchy, if anything.
+    #[must_use]
+    pub fn patches(&self) -> Option<&PatchyField> {
+        self.patches.as_ref()
+    }
+
+    /// Optical depths in f64 of a ray (unit direction) up to `t_max` (m) at some wavelengths: what ground truth is made of.
+    #[must_use]
+    pub fn optical_depths_at<const N: usize>(
+        &self,
+        origin: Vec3A,
+        direction: Vec3A,
+        t_max: f64,
+        wavelengths_nm: [f64; N],
+    ) -> [f64; N] {
+        match self.patchy() {
+            Some(patchy) => patchy.optical_depths_at(origin, direction, t_max, wavelengths_nm),
+            None => {
+                let (y0, dy) = (f64::from(origin.y), f64::from(direction.y));
+                wavelengths_nm.map(|nm| self.profile.optical_depth_at(y0, dy, t_max, nm))
+            }
+        }
+    }
+
+    fn patchy(&self) -> Option<PatchyFog<'_>> {
+        // The field was checked when it came.
+        self.patches.as_ref().and_then(|field| PatchyFog::new(&self.profile, field).ok())
     }
 
     /// Resolves the tables for a loop over paths.
@@ -36,15 +79,17 @@ impl Medium {
     pub fn view(&self) -> MediumView<'_> {
         let phase = self.phase.view(&self.nodes);
         let grey = phase.is_grey() && self.profile.wavelengths_nm().len() == 1;
-        MediumView { profile: &self.profile, phase, grey }
+        MediumView { profile: &self.profile, patchy: self.patchy(), phase, grey }
     }
 }
 
 /// [`Medium`] with its tables resolved to slices.
 #[derive(Clone, Copy, Debug)]
 pub struct MediumView<'a> {
-    /// Extinction and albedo.
+    /// Extinction and albedo: of the even layer, where the fog is patchy.
     pub profile: &'a ExtinctionProfile,
+    /// The patchy layer, where the fog is patchy.
+    pub patchy: Option<PatchyFog<'a>>,
     /// Phase function.
     pub phase: PhaseView<'a>,
     /// True if nothing depends on the wavelength.

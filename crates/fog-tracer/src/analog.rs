@@ -4,6 +4,9 @@
 //! at what shines only when running into it. Nothing is estimated ahead, nothing is weighted between wavelengths. Lights
 //! without extent cannot be run into: all of them are looked at from every scattering.
 
+mod null_collisions;
+
+use self::null_collisions::Collision;
 use crate::lights::lamp_light;
 use crate::path::PathTracer;
 use fog_core::colour::upsample;
@@ -26,12 +29,17 @@ impl PathTracer<'_> {
         loop {
             // Fly: how far does the photon get in the fog?
             let flight = self.medium.as_ref().and_then(|medium| {
+                let lanes = medium.lanes(&wavelengths);
+                if let Some(fog) = self.null_collisions(&lanes) {
+                    return fog.fly(origin, direction, f64::INFINITY, rng);
+                }
                 let tau = -math::f64::ln(1.0 - rng.uniform_f64());
                 let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
-                let lanes = medium.lanes(&wavelengths);
-                medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile)
+                let t = medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile)?;
+                let even_y = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+                Some(Collision { t, even_y })
             });
-            let t_max = flight.map_or(f32::INFINITY, |t| t as f32);
+            let t_max = flight.as_ref().map_or(f32::INFINITY, |collision| collision.t as f32);
             let key = if self.scene.has_partial_opacity() { rng.next_u64() } else { 0 };
             if let Some(hit) = self.scene.scatterer(origin, direction, t_max, key) {
                 // A surface: add what it emits, reflect or transmit by its BSDF.
@@ -59,10 +67,8 @@ impl PathTracer<'_> {
                 }
                 beta *= sample.weight[0];
                 origin = surface.point.spawn_origin(direction);
-            } else if let (Some(t), Some(medium)) = (flight, &self.medium) {
+            } else if let (Some(Collision { t, even_y: y }), Some(medium)) = (flight, &self.medium) {
                 // A droplet: absorbed, or turned by its phase function.
-                let y = (f64::from(origin.y) + t * f64::from(direction.y))
-                    .clamp(medium.profile.base_y(), medium.profile.top_y());
                 let lanes = medium.lanes(&wavelengths);
                 if rng.uniform() >= medium.profile.albedo(y, &lanes.profile)[0] {
                     return sum;
@@ -122,6 +128,10 @@ impl PathTracer<'_> {
                 let depth = self.medium.as_ref().map_or(0.0, |medium| {
                     let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
                     let lanes = medium.lanes(wavelengths);
+                    if let Some(fog) = self.null_collisions(&lanes) {
+                        let stopped = fog.fly(origin, direction, f64::from(distance), rng).is_some();
+                        return if stopped { f32::INFINITY } else { 0.0 };
+                    }
                     medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile)[0]
                 });
                 weight * irradiance * math::fast_exp(-depth)

@@ -65,7 +65,7 @@ impl LayerLight {
         let sky =
             scene.environment.map_or(0.0, |e| e.radiance) + scene.sky.as_ref().map_or(0.0, |s| s.mean());
         let profile = medium.profile;
-        if profile.least_albedo() < LEAST_ALBEDO {
+        if medium.patchy.is_some() || profile.least_albedo() < LEAST_ALBEDO {
             return None;
         }
         let cosines = medium.phase.mean_cosines()?;

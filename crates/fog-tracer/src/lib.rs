@@ -5,6 +5,7 @@
 
 mod analog;
 mod equiangular;
+pub mod features;
 mod groups;
 mod layer_light;
 mod lights;

@@ -5,11 +5,13 @@
 //! both relative to the hero's density: dividing by the mean of `r_u + r_l·p` over the lanes is the balance heuristic over
 //! wavelengths and strategies at once (Wilkie et al. 2014; Miller et al. 2019; names after pbrt-v4, sec. 14.2).
 //!
-//! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`].
+//! Free flights are exact in the layer, so there are no null collisions; see [`fog_core::profile`], and
+//! [`fog_core::patchiness`] for patchy fog.
 
 mod connect;
 mod glow;
 mod layer;
+mod patchy;
 
 use self::glow::Flight;
 use crate::layer_light::{LayerLanes, LayerLight};
@@ -19,6 +21,7 @@ use crate::settings::Settings;
 use crate::watch::{FlightEnd, Step, Watch, Weights};
 use fog_core::bands::BandLanes;
 use fog_core::colour::Observer;
+use fog_core::patchiness::Crossed;
 use fog_core::profile::ProfileLanes;
 use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
@@ -80,6 +83,8 @@ pub(crate) struct Path {
     r_l: Spectrum,
     /// Scatterings so far.
     depth: u32,
+    /// What the last flight crossed, in patchy fog.
+    crossed: Option<Crossed>,
 }
 
 /// What the wavelengths of a path need to be looked up.
@@ -151,7 +156,7 @@ impl<'a> PathTracer<'a> {
         let mut u = f64::from(first_flight);
         loop {
             // Fly to the next collision in the fog, or to a surface before it.
-            let (event, end) = self.fly(&path, &lanes, u);
+            let (event, end) = self.fly(&mut path, &lanes, u);
             watch.see(|| self.flight(&path, &lanes, u, &event));
             let segment = self.lit_segment(&path, end);
             if let Some(segment) = &segment {
@@ -238,7 +243,10 @@ impl<'a> PathTracer<'a> {
     /// Samples the free flight at the hero wavelength and looks for a surface before its end. Among lamps, also the distance
     /// of the first surface behind it.
     #[inline(always)]
-    fn fly(&self, path: &Path, lanes: &Lanes, u: f64) -> (Event, f64) {
+    fn fly(&self, path: &mut Path, lanes: &Lanes, u: f64) -> (Event, f64) {
+        if self.is_patchy() {
+            return self.fly_through_patches(path, lanes, u);
+        }
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
             let tau = math::neg_ln(1.0 - u);
             let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
@@ -265,7 +273,8 @@ impl<'a> PathTracer<'a> {
             return;
         }
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let tau = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+        let even = || medium.profile.optical_depth(y, dy, t, &lanes.profile);
+        let tau = path.crossed.map_or_else(even, |crossed| crossed.depth);
         path.r_l *= math::fast_exp(tau[0]);
         if !medium.grey {
             let ratio = (tau - Spectrum::splat(tau[0])).exp_neg();
@@ -279,9 +288,11 @@ impl<'a> PathTracer<'a> {
     fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, rng: &mut PathRng) -> Scatterer {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let y_hit = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let even_y = || (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
+        let y_hit = path.crossed.map_or_else(even_y, |crossed| crossed.even_y);
         if !medium.grey {
-            let depth = medium.profile.optical_depth(y, dy, t, &lanes.profile);
+            let even = || medium.profile.optical_depth(y, dy, t, &lanes.profile);
+            let depth = path.crossed.map_or_else(even, |crossed| crossed.depth);
             let sigma_t = medium.profile.sigma_t(y_hit, &lanes.profile);
             let ratio = (depth - Spectrum::splat(tau as f32)).exp_neg() * sigma_t * (1.0 / sigma_t[0]);
             path.beta *= ratio;
@@ -383,7 +394,9 @@ impl<'a> PathTracer<'a> {
         };
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
         let fog = self.medium.as_ref().zip(lanes.medium.as_ref());
-        let tau = fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
+        let even =
+            || fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
+        let tau = path.crossed.map_or_else(even, |crossed| Some(crossed.depth));
         Step::Flight {
             origin: path.origin,
             direction: path.direction,
@@ -397,8 +410,9 @@ impl<'a> PathTracer<'a> {
     /// A collision for a watch.
     fn collision(&self, path: &Path, lanes: &Lanes, scatterer: &Scatterer) -> Step {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
-        let here = [medium.profile.sigma_t(y, &lanes.profile), medium.profile.albedo(y, &lanes.profile)];
+        let (y, density) = self.even_place(path);
+        let sigma_t = medium.profile.sigma_t(y, &lanes.profile) * density;
+        let here = [sigma_t, medium.profile.albedo(y, &lanes.profile)];
         Step::collision(path.origin, here, scatterer, path.weights())
     }
 }
@@ -406,7 +420,7 @@ impl<'a> PathTracer<'a> {
 impl Path {
     pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
         let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
-        Self { origin, direction, beta, r_u, r_l, depth: 0 }
+        Self { origin, direction, beta, r_u, r_l, depth: 0, crossed: None }
     }
 
     fn weights(&self) -> Weights {

@@ -46,16 +46,14 @@ fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row
     let ray = camera.ray(x as f64 + 0.5, y as f64 + 0.5);
     let hit = scene.intersect(ray.origin, ray.direction, f32::INFINITY);
     let distance = hit.map_or(f32::INFINITY, |h| h.t);
-    let optical_depth = |nm: f64| {
-        scene.medium.as_ref().map_or(0.0, |medium| {
-            let (y0, dy) = (f64::from(ray.origin.y), f64::from(ray.direction.y));
-            medium.profile().optical_depth_at(y0, dy, f64::from(distance), nm)
-        })
-    };
+    let [r, g, b] = bands;
+    let depths = scene.medium.as_ref().map_or([0.0; 4], |medium| {
+        medium.optical_depths_at(ray.origin, ray.direction, f64::from(distance), [r, g, b, TAU_NM])
+    });
     Row {
         depth: distance * ray.direction.dot(camera.pose.forward),
         distance,
-        transmittance: bands.map(|nm| math::f64::exp(-optical_depth(nm)) as f32),
-        tau: optical_depth(TAU_NM) as f32,
+        transmittance: [0, 1, 2].map(|i| math::f64::exp(-depths[i]) as f32),
+        tau: depths[3] as f32,
     }
 }

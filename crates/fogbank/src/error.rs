@@ -31,6 +31,9 @@ pub enum Error {
     /// The data set cannot be read or written.
     #[error(transparent)]
     DataSet(#[from] fog_dataset::Error),
+    /// A picture cannot be denoised.
+    #[error("{0}")]
+    Denoise(String),
     /// Two pictures or data sets that cannot be compared.
     #[error("cannot compare {} with {}: {reason}", a.display(), b.display())]
     Incomparable {

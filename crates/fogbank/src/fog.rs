@@ -5,11 +5,12 @@ use crate::error::Error;
 use crate::phase::FogPhase;
 use crate::resources::Resources;
 use fog_core::optics_table::OpticsTable;
+use fog_core::patchiness::{Patchiness, PatchinessError, PatchyField};
 use fog_optics::droplets::DropletLayer;
 use fog_optics::layer::{self, FogLayer};
 use fog_optics::state::FogState;
 use fog_optics::{coefficient, layer_csv};
-use fog_plan::{Coefficient, FogModel, FogSpec};
+use fog_plan::{Coefficient, FogModel, FogSpec, PatchinessSpec};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -54,7 +55,11 @@ impl Fog {
             }
         }
         let FogPhase { phase, g, record: phase_record } = FogPhase::new(spec, &layer, resources)?;
-        let medium = Medium::new(layer.profile(spec.datum_m)?, phase);
+        let mut medium = Medium::new(layer.profile(spec.datum_m)?, phase);
+        if let Some(patchiness) = &spec.patchiness {
+            let wrong = |e: PatchinessError| Error::Fog(format!("fog.patchiness: {e}"));
+            medium = medium.with_patches(field(patchiness).map_err(wrong)?).map_err(wrong)?;
+        }
         let coefficient = from_droplets(&spec.model).then_some(spec.coefficient);
         let files = resources.files().hashes(spec.files());
         let datum_m = spec.datum_m;
@@ -68,6 +73,22 @@ impl Fog {
             ("coefficient", json!(self.coefficient)),
             ("files", json!(self.files)),
         ]
+    }
+
+    /// Patches over the point (x, z) in m as they are recorded; null where the layer is even.
+    pub(crate) fn patches_json(&self, x_m: f64, z_m: f64) -> Value {
+        let Some(field) = self.medium.patches() else { return Value::Null };
+        let [base, top] = self.extent_m();
+        json!({
+            "over_camera": {
+                "density_factor": field.density_factor(x_m, z_m),
+                "top_m": top + field.top_offset_m(x_m, z_m),
+            },
+            "mean_top_m": top,
+            "definition": "sigma_t is density_factor times that of the mean layer at base + (altitude - base) * \
+                           (mean top - base) / (top - base); at_camera, at_base and at_top are of the mean layer",
+            "base_m": base,
+        })
     }
 
     /// Altitude over the fog's datum of world height `y`, in metres.
@@ -124,6 +145,12 @@ impl Fog {
             "mean_diameter_um": s.mean_diameter_um,
         })
     }
+}
+
+/// The billows of a specification.
+fn field(spec: &PatchinessSpec) -> Result<PatchyField, PatchinessError> {
+    let PatchinessSpec { density_sd, top_sd_m, length_m, octaves, seed } = *spec;
+    PatchyField::new(Patchiness { density_sd, top_sd_m, length_m, octaves, seed })
 }
 
 /// True if the extinction of the layer, or a part of it, is that of droplets.

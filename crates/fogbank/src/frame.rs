@@ -1,11 +1,13 @@
 //! One frame: specification → scene → picture and record.
 
+use crate::denoise;
 use crate::error::Error;
 use crate::fog::Fog;
 use crate::lighting::{DistantLights, distant_lights, light_groups};
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
+use fog_dataset::DenoisedPicture;
 use fog_film::Frame;
 use fog_plan::{CameraSpec, FrameSpec, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose};
@@ -22,6 +24,8 @@ pub struct Rendered {
     pub record: serde_json::Value,
     /// Camera of the frame.
     pub camera: Camera,
+    /// The picture without its noise, if the frame asks for it.
+    pub denoised: Option<DenoisedPicture>,
 }
 
 /// Camera of a frame.
@@ -64,7 +68,7 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
 /// Renders a frame on the current rayon pool. `progress` hears of the paths and may stop the work.
 ///
 /// # Errors
-/// If the scene or the fog cannot be had, a pixel is not finite, or `progress` asked to stop.
+/// If the scene, the fog or a denoiser that it asks for cannot be had, a pixel is not finite, or `progress` asked to stop.
 pub fn render_frame(
     spec: &FrameSpec,
     resources: &Resources,
@@ -72,6 +76,7 @@ pub fn render_frame(
     progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Result<Rendered, Error> {
     let (scene, fog) = scene(spec, resources)?;
+    let denoiser = resources.denoiser(spec)?;
     let camera = camera(&spec.camera, &spec.sensor);
     let settings = settings(spec);
     let frame =
@@ -81,5 +86,7 @@ pub fn render_frame(
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
-    Ok(Rendered { frame, record, camera })
+    let denoised =
+        denoiser.map(|denoiser| denoise::denoised(&scene, &camera, &frame, denoiser)).transpose()?;
+    Ok(Rendered { frame, record, camera, denoised })
 }

@@ -19,6 +19,7 @@
 
 mod changed_files;
 mod compare;
+mod denoise;
 mod droplets;
 mod error;
 mod fog;
@@ -48,8 +49,8 @@ pub use fog_figures as figures;
 pub use fog_film as film;
 pub use fog_optics as optics;
 pub use fog_plan as plan;
-pub use fog_scene::generate;
 pub use fog_tracer::render::Work;
+pub use fog_worlds as worlds;
 pub use frame::{Rendered, camera, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
 pub use reference::Reference;

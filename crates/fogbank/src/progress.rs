@@ -29,6 +29,13 @@ pub enum Event<'a> {
         /// Seconds that it took.
         seconds: f64,
     },
+    /// The denoiser was loaded.
+    Denoiser {
+        /// Its file, as it was named.
+        path: &'a Path,
+        /// Its version, as `2.5.1`.
+        version: &'a str,
+    },
     /// Something that the user should know, though the work goes on.
     Warning(String),
     /// All is ready: so many of the plan's frames are finished already and so many are to be rendered.

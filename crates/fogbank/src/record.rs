@@ -1,6 +1,7 @@
 //! The metadata of a frame: everything that it depends on, and what its camera and fog were, with units in the keys.
 
 use crate::CODE_DIGEST;
+use crate::denoise;
 use crate::fog::Fog;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
@@ -28,6 +29,11 @@ pub(crate) fn record(
             "at_base": fog.state_json(base),
             "at_top": fog.state_json(top),
         });
+        let over = camera.pose.position;
+        let patches = fog.patches_json(f64::from(over.x), f64::from(over.z));
+        if !patches.is_null() {
+            state["patchiness"] = patches;
+        }
         for (key, value) in fog.optics_json() {
             state[key] = value;
         }
@@ -63,6 +69,9 @@ pub(crate) fn record(
     if let Some(groups) = scene.light_groups() {
         let counts = groups.names().map(str::to_owned).zip(scene.light_counts().into_iter().map(Value::from));
         value["lighting"]["lights_in_group"] = counts.collect::<serde_json::Map<_, _>>().into();
+    }
+    if denoise::is_wanted(spec) {
+        value["denoised"] = denoise::record_json(&spec.id);
     }
     value["noise"] = noise_json(spec, frame);
     value["config_digest"] = json!(config_digest);

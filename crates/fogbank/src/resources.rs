@@ -1,5 +1,6 @@
 //! What frames share: the observer, fog models, optics tables and loaded scenes, each made once.
 
+use crate::denoise;
 use crate::droplets::Spectrum;
 use crate::error::Error;
 use crate::progress::{Event, Progress};
@@ -12,6 +13,7 @@ use fog_core::colour::Observer;
 use fog_core::diameter_choice::DiameterChoice;
 use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::OpticsTable;
+use fog_denoise::Denoiser;
 use fog_optics::advection::AdvectionModel;
 use fog_plan::{DropletsSpec, FogModel, FogSpec, FrameSpec, MeanCosine, Phase, Sampling};
 use fog_scene::{Limits, LoadedScene};
@@ -30,6 +32,8 @@ pub struct Resources {
     tables: Tables,
     scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
     empty: Arc<LoadedScene>,
+    denoiser_path: Option<PathBuf>,
+    denoiser: Option<Result<Denoiser, String>>,
 }
 
 impl Resources {
@@ -43,13 +47,30 @@ impl Resources {
             tables: Tables::new(cache),
             scenes: HashMap::new(),
             empty: Arc::new(LoadedScene::default()),
+            denoiser_path: None,
+            denoiser: None,
         }
+    }
+
+    /// Says where the library of Open Image Denoise is, its file or folder, for frames with the output `denoised`; else it
+    /// is looked for where the system has its libraries.
+    #[must_use]
+    pub fn with_denoiser(mut self, path: Option<PathBuf>) -> Self {
+        self.denoiser_path = path;
+        self
     }
 
     /// Reads, loads or builds what a frame needs and is not there yet. What cannot be had is remembered with its reason and
     /// fails the frames that need it ([`crate::scene`]), so that others can go on.
     pub fn prepare(&mut self, spec: &FrameSpec, progress: &dyn Progress) {
         self.prepare_fog(&spec.fog, progress);
+        if denoise::is_wanted(spec) && self.denoiser.is_none() {
+            let denoiser = denoise::load(self.denoiser_path.as_deref());
+            if let Ok(denoiser) = &denoiser {
+                progress.event(Event::Denoiser { path: denoiser.file(), version: &denoiser.version() });
+            }
+            self.denoiser = Some(denoiser);
+        }
         self.surroundings.prepare(&spec.lighting);
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
@@ -95,6 +116,19 @@ impl Resources {
                 Some(Err(reason)) => Err(Error::Scene(reason.clone())),
                 None => Err(Error::Scene(format!("{} was not prepared", file.display()))),
             },
+        }
+    }
+
+    /// The denoiser, if the frame asks for it.
+    ///
+    /// # Errors
+    /// Why it could not be had.
+    pub(crate) fn denoiser(&self, spec: &FrameSpec) -> Result<Option<&Denoiser>, Error> {
+        match &self.denoiser {
+            _ if !denoise::is_wanted(spec) => Ok(None),
+            Some(Ok(denoiser)) => Ok(Some(denoiser)),
+            Some(Err(reason)) => Err(Error::Denoise(reason.clone())),
+            None => Err(Error::Denoise("the denoiser was not prepared".to_owned())),
         }
     }
 

@@ -53,7 +53,7 @@ impl Selection {
 /// A frame that fails is recorded with its reason and the others go on: look at the returned counts.
 ///
 /// # Errors
-/// If nothing can be rendered at all (scene, fog, optics table), if `dir` cannot be used, holds another data set or frames
+/// If nothing can be rendered at all (scene, fog, optics table, denoiser), if `dir` cannot be used, holds another data set or frames
 /// made from other contents of the fogs' files, or if `progress` asked to stop.
 pub fn sweep(
     plan: &Plan,
@@ -73,7 +73,8 @@ pub fn sweep(
     // If not one of them can be put together, that is the configuration's fault and not a frame's.
     let mut refused = None;
     for &i in &selected {
-        match frame::scene(&frames[i], resources) {
+        let scene = frame::scene(&frames[i], resources);
+        match scene.and_then(|_| resources.denoiser(&frames[i])) {
             Ok(_) => {
                 refused = None;
                 break;
@@ -248,6 +249,7 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, started: Ins
         id: &spec.id,
         frame: &rendered.frame,
         record: &rendered.record,
+        denoised: rendered.denoised.as_ref(),
         exposure: spec.sensor.exposure as f32,
         seconds: started.elapsed().as_secs_f64(),
         attributes: &attributes,

@@ -22,7 +22,8 @@ pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
 /// Renders the selected frames; exit code 1 if one of the selected frames failed.
 pub(crate) fn render(plan: &Plan, selection: &Selection, work: &WorkArgs) -> Result<ExitCode> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(work)).build()?;
-    let mut resources = Resources::new(TableCache::new(cache_dir(work.cache_dir.as_deref())?));
+    let cache = TableCache::new(cache_dir(work.cache_dir.as_deref())?);
+    let mut resources = Resources::new(cache).with_denoiser(denoiser(work.oidn.as_deref()));
     let reporter = Reporter::new(work.quiet);
     let result = pool.install(|| fogbank::sweep(plan, selection, &work.out, &mut resources, &reporter));
     reporter.close();
@@ -32,6 +33,12 @@ pub(crate) fn render(plan: &Plan, selection: &Selection, work: &WorkArgs) -> Res
 
 pub(crate) fn threads(work: &WorkArgs) -> usize {
     work.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
+/// The library asked for, or the one that the environment names.
+fn denoiser(asked: Option<&Path>) -> Option<PathBuf> {
+    let named = || std::env::var_os("FOGBANK_OIDN").filter(|v| !v.is_empty()).map(PathBuf::from);
+    asked.map(Path::to_owned).or_else(named)
 }
 
 /// The folder asked for; in a checkout of Fogbank its `tables/cache`; else the user's cache folder.

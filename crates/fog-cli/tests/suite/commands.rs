@@ -65,7 +65,7 @@ fn help_shows_examples() {
 #[test]
 fn scenes_are_those_of_the_repository() {
     let dir = tempfile::tempdir().unwrap();
-    for name in ["street", "airfield"] {
+    for name in ["street", "runway"] {
         run(&["scene", name, "--out", "f.glb"], dir.path()).ok();
         let file = format!("{name}.glb");
         run(&["scene", name], dir.path()).ok();

@@ -8,21 +8,21 @@ use crate::random::PathRng;
 /// Waves that are summed side by side.
 pub(super) const LANES: usize = 8;
 
-type Lanes = [f64; LANES];
+pub(super) type Lanes = [f64; LANES];
 
 /// Waves amplitude · cos 2π(u x + v z + phase), u and v in cycles per m.
 #[derive(Clone, Debug, PartialEq)]
-struct Octave {
-    u: Lanes,
-    v: Lanes,
-    phase: Lanes,
-    amplitude: Lanes,
+pub(super) struct Octave {
+    pub(super) u: Lanes,
+    pub(super) v: Lanes,
+    pub(super) phase: Lanes,
+    pub(super) amplitude: Lanes,
 }
 
 /// A sum of plane waves, [`LANES`] for each octave of its band.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Waves {
-    octaves: Vec<Octave>,
+    pub(super) octaves: Vec<Octave>,
 }
 
 impl Waves {

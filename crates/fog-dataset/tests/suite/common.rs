@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use fog_dataset::{Attribute, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame, Result};
+use fog_dataset::{
+    Attribute, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, OutputSet, PlanFrame, Result,
+};
 use fog_film::{Channels, Frame, GroupLayer, PixelFilm, Truth};
 use serde_json::{Map, Value, json};
 
@@ -94,8 +96,11 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
         ("world_from_camera".to_owned(), Attribute::Matrix(std::array::from_fn(|i| i as f32))),
     ]
     .into();
+    let rgb = frame.direct.iter().map(|rgb| rgb.map(|v| 0.5 * v)).collect();
+    let denoised = DenoisedPicture { rgb, details: json!({ "library": "half" }) };
     set.write_frame(&FrameFiles {
         id,
+        denoised: Some(&denoised),
         frame,
         record: &json!({ "id": id, "samples": frame.samples[0] }),
         exposure: 1.25,

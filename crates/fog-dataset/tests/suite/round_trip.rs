@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use fog_dataset::{DataSet, OutputSet, StoredFrame, read_frame, read_header, read_plan};
+use fog_dataset::{
+    DataSet, OutputSet, StoredFrame, read_exr_channels, read_frame, read_header, read_plan, verify,
+};
 use fog_film::{Channels, Frame};
+use serde_json::json;
 
 use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed};
 
@@ -100,6 +103,36 @@ fn only_the_wanted_outputs_are_written() {
 }
 
 #[test]
+fn a_denoised_picture_is_kept_beside_the_rendered() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let set = open(dir.path(), 1);
+    let f = frame(8, 6, Channels::Rgb, 4);
+    store(&set, "f0", &f).expect("written");
+    let channels = |file: &str| read_exr_channels(&dir.path().join(file)).expect("channels");
+    let (rendered, denoised) = (channels("f0.hdr.exr"), channels("f0.denoised.exr"));
+    assert_eq!(denoised.len(), 3);
+    for (name, channel) in &denoised {
+        let half: Vec<f32> =
+            f.direct.iter().map(|rgb| 0.5 * rgb["RGB".find(name.as_str()).unwrap()]).collect();
+        assert!(channel.values == half && rendered[name].values != half, "{name}");
+    }
+    let details = read_json(&dir.path().join("f0.denoised.json"));
+    assert_eq!(
+        (&details["library"], &details["files"][1]["name"]),
+        (&json!("half"), &json!("f0.denoised.png"))
+    );
+    // The marker does not know them, but a frame that lacks them is not done, and changes are found.
+    assert!(!contents(dir.path())["f0.done"].windows(8).any(|word| word == b"denoised"));
+    assert!(set.is_intact("f0"));
+    std::fs::write(dir.path().join("f0.denoised.exr"), "").expect("written");
+    assert!(!set.is_done("f0"));
+    let problems = verify(dir.path()).expect("readable").problems;
+    assert_eq!(problems.iter().map(|p| p.file.as_str()).collect::<Vec<_>>(), ["f0.denoised.exr"]);
+    std::fs::remove_file(dir.path().join("f0.denoised.json")).expect("removed");
+    assert!(!set.is_done("f0"));
+}
+
+#[test]
 fn two_runs_give_the_same_bytes() {
     let run = |seconds: f64| -> BTreeMap<String, Vec<u8>> {
         let dir = tempfile::tempdir().expect("temporary folder");
@@ -110,7 +143,7 @@ fn two_runs_give_the_same_bytes() {
         contents(dir.path())
     };
     let first = run(1.0);
-    assert_eq!(first.len(), 4 + 2 * 5);
+    assert_eq!(first.len(), 4 + 2 * 8);
     for i in 0..8 {
         assert!(run(f64::from(i)) == first, "run {i} differs");
     }

@@ -117,6 +117,8 @@ pub(crate) enum OutputFile {
     StandardError,
     /// Number of samples of each pixel; only where it is named.
     Samples,
+    /// A guess at `hdr` without its noise, by Open Image Denoise, in files of its own beside it; only where it is named.
+    Denoised,
 }
 
 impl OutputFile {

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     droplets::{DropletsFile, VerticalFile},
-    or_none::Example,
+    or_none::{Example, OrNone},
+    patchiness::PatchinessFile,
     phase::PhaseFile,
 };
 use crate::ranges;
@@ -62,6 +63,9 @@ pub(crate) struct FogFile {
     pub(crate) sampling: Option<SamplingFile>,
     /// Scales the layer so that it has this visibility.
     pub(crate) visibility: Option<VisibilityFile>,
+    /// Random billows of density and top, or `none`. Absent: the layer is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) patchiness: Option<OrNone<PatchinessFile>>,
     /// World height of altitude 0, in metres.
     #[schemars(range(min = ranges::DATUM_M.min, max = ranges::DATUM_M.max))]
     pub(crate) datum_m: f64,
@@ -86,6 +90,7 @@ impl Default for FogFile {
             coefficient: None,
             sampling: None,
             visibility: None,
+            patchiness: None,
             datum_m: 0.0,
         }
     }

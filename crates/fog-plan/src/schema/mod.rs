@@ -7,6 +7,7 @@ mod droplets;
 mod fog;
 mod light;
 mod or_none;
+mod patchiness;
 mod phase;
 mod sweep;
 
@@ -21,6 +22,7 @@ pub(crate) use light::{
     SUN_DIAMETER_DEG, SunFile,
 };
 pub(crate) use or_none::OrNone;
+pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
@@ -67,7 +69,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error` and `samples`.
+/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);

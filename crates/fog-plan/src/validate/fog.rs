@@ -37,6 +37,7 @@ impl Check<'_> {
                     coefficient: Coefficient::default(),
                     sampling: Sampling::default(),
                     visibility: None,
+                    patchiness: None,
                     datum_m: 0.0,
                 });
             }
@@ -48,6 +49,7 @@ impl Check<'_> {
         let datum_m = self.range("fog.datum_m", fog.datum_m, ranges::DATUM_M);
         let visibility =
             fog.visibility.as_ref().map_or(Some(None), |v| self.visibility(v, fog.height_m).map(Some));
+        let patchiness = self.patchiness(fog.patchiness.as_ref(), fog.height_m);
         let why = "one of advection, droplets, homogeneous, linear_gradient, layered";
         let name = self.required("fog.model", fog.model, why)?;
         self.foreign_keys(fog, name);
@@ -59,6 +61,7 @@ impl Check<'_> {
             coefficient: coefficient?,
             sampling: sampling?,
             visibility: visibility?,
+            patchiness: patchiness?,
             datum_m: datum_m?,
         };
         if spec.coefficients.is_some() && !spec.takes_advection_model() {

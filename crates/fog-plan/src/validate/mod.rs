@@ -4,6 +4,7 @@ mod droplets;
 mod fog;
 mod light_groups;
 mod lighting;
+mod patchiness;
 mod view;
 
 use serde::Serialize;

@@ -106,16 +106,22 @@ impl Check<'_> {
             self.problem("outputs", "empty; name at least one output");
             return None;
         }
-        let mut unique = true;
+        let mut fine = true;
         for (index, output) in outputs.0.iter().enumerate() {
             if outputs.0[..index].contains(output) {
                 self.problem(&format!("outputs.{index}"), "named twice");
-                unique = false;
+                fine = false;
             }
+        }
+        let index = outputs.0.iter().position(|output| *output == OutputFile::Denoised);
+        if let Some(index) = index.filter(|_| !outputs.0.contains(&OutputFile::Hdr)) {
+            let message = "denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
+            self.problem(&format!("outputs.{index}"), message);
+            fine = false;
         }
         let mut sorted: Vec<Output> = outputs.0.iter().map(|output| domain(*output)).collect();
         sorted.sort_unstable();
-        unique.then_some(sorted)
+        fine.then_some(sorted)
     }
 }
 
@@ -131,5 +137,6 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::Airlight => Output::Airlight,
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
+        OutputFile::Denoised => Output::Denoised,
     }
 }

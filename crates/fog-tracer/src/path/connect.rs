@@ -121,6 +121,9 @@ impl PathTracer<'_> {
         let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
             return Spectrum::ONE;
         };
+        if let Some(patchy) = &medium.patchy {
+            return self.transmittance_of_patches(patchy, origin, direction, distance, lanes);
+        }
         let (y, dy) = (f64::from(origin.y), f64::from(direction.y));
         medium.profile.optical_depth(y, dy, f64::from(distance), &lanes.profile).exp_neg()
     }

@@ -5,6 +5,7 @@ use crate::equiangular::Segment;
 use crate::lights::lamp_light;
 use crate::watch::{Offer, Step, Watch};
 use fog_core::math;
+use fog_core::patchiness::Crossed;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
 use fog_scene::lamp_tree::Receiver;
@@ -28,7 +29,10 @@ impl PathTracer<'_> {
             return None;
         }
         let (origin, direction) = (path.origin, path.direction);
-        let span = medium.profile.clip(f64::from(origin.y), f64::from(direction.y), end)?;
+        let span = match &medium.patchy {
+            None => medium.profile.clip(f64::from(origin.y), f64::from(direction.y), end),
+            Some(patchy) => patchy.clip(origin, direction, end),
+        }?;
         let (enter, exit) = (span.enter, span.exit);
         (exit > enter).then_some(Segment { origin, direction, enter, exit })
     }
@@ -36,8 +40,8 @@ impl PathTracer<'_> {
     /// Density per metre of the hero's flight to where the path is now, having crossed `tau`.
     pub(super) fn flight_density(&self, path: &Path, lanes: &Lanes, tau: f64) -> f32 {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let y = f64::from(path.origin.y).clamp(medium.profile.base_y(), medium.profile.top_y());
-        medium.profile.sigma_t(y, &lanes.profile)[0] * math::fast_exp(-(tau as f32))
+        let (y, density) = self.even_place(path);
+        medium.profile.sigma_t(y, &lanes.profile)[0] * density * math::fast_exp(-(tau as f32))
     }
 
     /// Light of a lamp that the fog scatters at a point of the flight chosen by its nearness to the lamp, balanced against
@@ -59,22 +63,20 @@ impl PathTracer<'_> {
         let near = segment.near(lamps.lamps()[lamp].position);
         let Some(t) = near.sample(rng.uniform_f64()) else { return Spectrum::ZERO };
         let point = path.origin + path.direction * t as f32;
-        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let y_point = (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
-        let scatterer = medium.phase.scatterer(medium.profile.zeta(y_point), &medium_lanes.phase, rng);
+        let Crossed { even_y, depth, density, .. } = self.cross(path, t, medium_lanes);
+        let scatterer = medium.phase.scatterer(medium.profile.zeta(even_y), &medium_lanes.phase, rng);
         let Some(light) = lamp_light(self.scene, lamp, point, 1.0, &lanes.basis) else {
             return Spectrum::ZERO;
         };
 
         let profile = medium.profile;
-        let depth = profile.optical_depth(y, dy, t, &medium_lanes.profile);
-        let flight = depth.exp_neg() * profile.sigma_t(y_point, &medium_lanes.profile);
+        let flight = depth.exp_neg() * profile.sigma_t(even_y, &medium_lanes.profile) * density as f32;
         let m = 0.5 * (light.direction - path.direction).length_squared();
         let phase = medium.phase.eval(scatterer.row, m, &scatterer.lanes);
         let transmittance = self.transmittance(point, light.direction, light.distance, lanes);
         let value = path.beta
             * flight
-            * profile.albedo(y_point, &medium_lanes.profile)
+            * profile.albedo(even_y, &medium_lanes.profile)
             * scatterer.probability_ratio
             * phase
             * transmittance

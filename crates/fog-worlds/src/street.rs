@@ -3,10 +3,14 @@
 //! Y up, the street runs along −Z from the viewer at the origin. All surfaces are Lambertian, in squares of 2 m; every
 //! square of buildings, tower and street also emits, red or blue, radiance 1: lighting by day leaves that out.
 
-use super::glb::Glb;
-use super::quads::Quads;
+use crate::error::WorldError;
+use crate::glb::{Glb, Sampling};
+use crate::mesh::{Mat, Mesh, Model};
+use crate::paint::Paint;
+use crate::picture::Picture;
+use crate::place::Place;
 use fog_core::colour::Rgb;
-use serde_json::json;
+use fog_core::{Vec2, Vec3};
 
 /// Edge of a square in metres.
 const SQUARE: f32 = 2.0;
@@ -62,19 +66,22 @@ const GAP: f32 = 12.0;
 const DEPTH: f32 = 16.0;
 
 /// The scene as GLB.
-pub(super) fn street() -> Vec<u8> {
+pub(crate) fn street() -> Result<Vec<u8>, WorldError> {
     let mut glb = Glb::default();
-    let glow = glb.checker("red and blue light", RED, BLUE);
+    let glow = checker(&mut glb, "red and blue light", RED, BLUE)?;
     let checkered = |glb: &mut Glb, (name, a, b): (&str, Rgb, Rgb), emits: bool| {
-        let texture = glb.checker(name, a, b);
-        let emission = json!({"emissiveTexture": {"index": glow}, "emissiveFactor": [1, 1, 1]});
-        let more = if emits { emission } else { json!({}) };
-        glb.lambertian(name, json!({"baseColorTexture": {"index": texture}}), more)
+        let texture = checker(glb, name, a, b)?;
+        let paint = Paint::lambertian(name, [1.0; 3]).textured(texture);
+        let glowing = Paint { emissive_texture: Some(glow), ..paint.clone().shining([1.0; 3], 1.0) };
+        Ok::<_, WorldError>(glb.material(if emits { &glowing } else { &paint }))
     };
-    let buildings = PALETTE.map(|colours| checkered(&mut glb, colours, true));
-    let tower = checkered(&mut glb, TOWER, true);
-    let street = checkered(&mut glb, STREET, true);
-    let ground = checkered(&mut glb, GROUND, false);
+    let mut buildings = Vec::new();
+    for colours in PALETTE {
+        buildings.push(checkered(&mut glb, colours, true)?);
+    }
+    let tower = checkered(&mut glb, TOWER, true)?;
+    let street = checkered(&mut glb, STREET, true)?;
+    let ground = checkered(&mut glb, GROUND, false)?;
 
     for (side, first_colour, sizes) in [("L", 0, LEFT), ("R", 3, RIGHT)] {
         let x = if side == "L" { -FACADE - DEPTH } else { FACADE };
@@ -92,22 +99,52 @@ pub(super) fn street() -> Vec<u8> {
     flat(&mut glb, "groundR", "terrain", ground, [8.0, 1200.0], [1200.0, -1200.0]);
     flat(&mut glb, "groundF", "terrain", ground, [-8.0, 1200.0], [8.0, 20.0]);
     flat(&mut glb, "groundB", "terrain", ground, [-8.0, -420.0], [8.0, -1200.0]);
-    glb.finish()
+    Ok(glb.finish())
+}
+
+/// A texture of 2 × 2 squares, colour a at the upper left and lower right, b at the others.
+fn checker(glb: &mut Glb, name: &str, a: Rgb, b: Rgb) -> Result<crate::glb::Tex, WorldError> {
+    glb.texture(name, &Picture::from_pixels(2, vec![a, b, b, a]), Sampling::Squares)
+}
+
+/// A rectangle in squares, whose texture begins at its corner `o`.
+fn squares(mesh: &mut Mesh, o: Vec3, u: Vec3, v: Vec3) {
+    let repeats = |edge: Vec3| edge.abs().element_sum() / (2.0 * SQUARE);
+    let (s, t) = (repeats(u), repeats(v));
+    let corners = [
+        (o, Vec2::ZERO),
+        (o + u, Vec2::new(s, 0.0)),
+        (o + u + v, Vec2::new(s, t)),
+        (o + v, Vec2::new(0.0, t)),
+    ];
+    mesh.polygon(&corners);
 }
 
 /// A building: a box without a floor.
-fn block(glb: &mut Glb, name: &str, class: &str, material: usize, min: [f32; 3], max: [f32; 3]) {
-    let mut quads = Quads::default();
-    Quads::each_face(min, max, |o, u, v| quads.checkered(o, u, v, SQUARE));
-    let mesh = glb.mesh(name, &quads, material);
-    glb.node(name, class, mesh, None);
+fn block(glb: &mut Glb, name: &str, class: &str, material: Mat, min: [f32; 3], max: [f32; 3]) {
+    let [x0, y0, z0] = min;
+    let [x1, y1, z1] = max;
+    let (x, y, z) = (Vec3::X * (x1 - x0), Vec3::Y * (y1 - y0), Vec3::Z * (z1 - z0));
+    let faces = [
+        ([x0, y0, z1], x, y),
+        ([x1, y0, z1], -z, y),
+        ([x1, y0, z0], -x, y),
+        ([x0, y0, z0], z, y),
+        ([x0, y1, z1], x, -z),
+    ];
+    let mut model = Model::default();
+    for (o, u, v) in faces {
+        squares(model.part(material), Vec3::from(o), u, v);
+    }
+    let shape = glb.shape(name, &model);
+    glb.node(name, class, shape, Place::at(0.0, 0.0, 0.0));
 }
 
 /// A rectangle at altitude 0 between two corners (x, z), z falling.
-fn flat(glb: &mut Glb, name: &str, class: &str, material: usize, from: [f32; 2], to: [f32; 2]) {
-    let mut quads = Quads::default();
-    let (u, v) = ([to[0] - from[0], 0.0, 0.0], [0.0, 0.0, to[1] - from[1]]);
-    quads.checkered([from[0], 0.0, from[1]], u, v, SQUARE);
-    let mesh = glb.mesh(name, &quads, material);
-    glb.node(name, class, mesh, None);
+fn flat(glb: &mut Glb, name: &str, class: &str, material: Mat, from: [f32; 2], to: [f32; 2]) {
+    let mut model = Model::default();
+    let (u, v) = (Vec3::X * (to[0] - from[0]), Vec3::Z * (to[1] - from[1]));
+    squares(model.part(material), Vec3::new(from[0], 0.0, from[1]), u, v);
+    let shape = glb.shape(name, &model);
+    glb.node(name, class, shape, Place::at(0.0, 0.0, 0.0));
 }

@@ -1,0 +1,18 @@
+//! Fiducial markers of the dictionary that OpenCV calls `DICT_4X4_50`.
+
+/// The 16 bits of each marker, row by row from the upper left, white 1: as OpenCV 4.14 draws them (2026).
+const DICT_4X4_50: [u16; 50] = [
+    0xb532, 0x0f9a, 0x332d, 0x9946, 0x549e, 0x79cd, 0x9e2e, 0xc4f2, 0xfeda, 0xcf56, 0xf991, 0x11a7, 0x0eb7,
+    0x2a0f, 0x24b1, 0x263e, 0x4665, 0x6600, 0x6c5e, 0x76af, 0x868b, 0xb02b, 0xccd5, 0xdd82, 0xfe47, 0x9471,
+    0xace4, 0xa554, 0x2123, 0x346f, 0x4415, 0x57b2, 0x9ecf, 0xf0cb, 0x08ae, 0x0929, 0x1875, 0x04ff, 0x0df6,
+    0x1c5a, 0x1718, 0x2a28, 0x328c, 0x38b2, 0x24e8, 0x2eeb, 0x2d3f, 0x4b64, 0x502e, 0x5013,
+];
+
+/// Whether a cell of the 8 × 8 cells of marker `id` is white: a white rim, a black one, and the bits within.
+pub(crate) fn is_white(id: usize, column: usize, row: usize) -> bool {
+    match (column, row) {
+        (2..=5, 2..=5) => DICT_4X4_50[id % 50] >> (15 - (4 * (row - 2) + column - 2)) & 1 == 1,
+        (1..=6, 1..=6) => false,
+        _ => true,
+    }
+}
