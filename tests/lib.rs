@@ -2,6 +2,7 @@
 
 pub mod chi_square;
 pub mod csv;
+pub mod npy;
 pub mod scenes;
 
 use std::path::{Path, PathBuf};

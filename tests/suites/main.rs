@@ -2,7 +2,9 @@
 
 mod analog;
 mod droplets;
+mod emitters;
 mod furnace;
+mod golden;
 mod lamps;
 mod layer_light;
 mod layers;

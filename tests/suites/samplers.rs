@@ -7,11 +7,11 @@ use fog_core::random::PathRng;
 use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math, phase_grid, warp};
 use fog_optics::advection::AdvectionModel;
-use fog_scene::SurfaceParameters;
 use fog_scene::bsdf::Bsdf;
-use fog_scene::emitters::{EmitterTriangle, Emitters};
+use fog_scene::emitters::{Breadth, EmitterTriangle, Emitters};
 use fog_scene::light::Sun;
 use fog_scene::phase::{Phase, PhaseNodes};
+use fog_scene::{Hit, SurfaceParameters};
 use fog_tests::chi_square::assert_follows;
 
 const SAMPLES: u64 = 1_000_000;
@@ -264,20 +264,23 @@ fn directions() {
 
 #[test]
 fn points_of_emitters() {
-    // Three triangles of other sizes and powers; cells are thirds along both edges of each.
+    // Three triangles of other sizes and radiances; cells are thirds along both edges of each.
     let corners = |x: f32, a: f32, b: f32| [Vec3A::X * x, Vec3A::X * (x + a), Vec3A::X * x + Vec3A::Y * b];
     let triangles = [
         (1, corners(0.0, 2.0, 1.0), 3.0),
         (4, corners(10.0, 0.5, 4.0), 1.0),
-        (6, corners(20.0, 3.0, 3.0), 7.0),
+        (6, corners(20.0, 2.0, 3.0), 7.0),
     ];
-    let emitters = Emitters::new(
-        triangles
-            .iter()
-            .map(|&(triangle, corners, power)| EmitterTriangle { triangle, corners, power })
-            .collect(),
-        8,
-    );
+    let all = triangles.map(|(triangle, corners, radiance)| EmitterTriangle {
+        triangle,
+        corners,
+        two_sided: false,
+        per_edge: 1,
+        radiance: vec![radiance],
+    });
+    let emitters = Emitters::new(&all, 8);
+    let from = Vec3A::new(8.0, 2.0, 5.0);
+    let pdf_area = |triangle, [u, v]: [f32; 2]| emitters.pdf_area(&Hit { t: 1.0, triangle, u, v }, from);
     const SIDE: usize = 6;
     let cell = |[u, v]: [f32; 2]| {
         let index = |x: f32| ((x * SIDE as f32) as usize).min(SIDE - 1);
@@ -286,7 +289,7 @@ fn points_of_emitters() {
     let mut expected = vec![0.0; 3 * SIDE * SIDE];
     for (k, &(triangle, [a, b, c], _)) in triangles.iter().enumerate() {
         let area = 0.5 * f64::from((b - a).cross(c - a).length());
-        let mass = f64::from(emitters.pdf_area(triangle)) * area * SAMPLES as f64;
+        let mass = f64::from(pdf_area(triangle, [0.2, 0.3])) * area * SAMPLES as f64;
         // Share of the triangle in each cell: the diagonal halves those that it crosses.
         for i in 0..SIDE {
             for j in 0..SIDE - i {
@@ -298,12 +301,12 @@ fn points_of_emitters() {
     let mut observed = vec![0u64; expected.len()];
     let mut rng = PathRng::new(47, 0, 0);
     for _ in 0..SAMPLES {
-        let point = emitters.sample(rng.uniform(), rng.uniform2()).unwrap();
+        let point = emitters.sample(Breadth::Compact, from, rng.uniform_f64(), rng.uniform2()).unwrap();
         let k = triangles.iter().position(|t| t.0 == point.triangle).unwrap();
         let [a, b, c] = triangles[k].1;
         let [u, v] = point.barycentric;
         assert!((point.position - (a + (b - a) * u + (c - a) * v)).length() < 1e-5);
-        assert_eq!(point.pdf_area, emitters.pdf_area(point.triangle));
+        assert_eq!(point.pdf_area, pdf_area(point.triangle, point.barycentric));
         observed[k * SIDE * SIDE + cell(point.barycentric)] += 1;
     }
     assert_follows("points of emitters", &observed, &expected, 1);

@@ -154,7 +154,7 @@ def solve(slabs, tau_scale, zenith_deg, ground_albedo, streams):
         warnings.simplefilter("ignore")  # many streams, albedos near 1: what they cost is in the column `off`
         nodes, up, down, _, radiance = pydisort(
             depths, albedo, streams, moments, cos_sun, 1.0, 0.0, NLeg=streams, NFourier=streams,
-            f_arr=moments[:, streams], BDRF_Fourier_modes=[ground_albedo / np.pi] if ground_albedo else [])
+            f_arr=moments[:, streams], BDRF_Fourier_modes=[ground_albedo] if ground_albedo else [])
         plain, corrected = interpolate(radiance, NT_cor="off"), interpolate(radiance, NT_cor="eval")
         values = [float(up(0.0)), float(down(depths[-1])[0])]
         for level, mu, azimuth_deg in directions(zenith_deg):
@@ -185,7 +185,7 @@ def solve_fluxes(slabs, tau_scale, zenith_deg, ground_albedo, streams):
                 warnings.simplefilter("ignore")
                 _, up, down, _ = pydisort(
                     depths, albedo, streams, moments, cos_sun, 1.0, 0.0, NLeg=streams, f_arr=moments[:, streams],
-                    only_flux=True, BDRF_Fourier_modes=[ground_albedo / np.pi])
+                    only_flux=True, BDRF_Fourier_modes=[ground_albedo])
             fluxes += weight / 2 / 4 * np.array([float(up(0.0)), float(sum(down(depths[-1])))])
     # Radiance 1 / (π sin² α) times the solid angle of the disc, for unit irradiance.
     return list(fluxes * 2 / (1 + edge)), depths[-1]

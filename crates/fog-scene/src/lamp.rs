@@ -1,7 +1,11 @@
 //! Lights without extent, as glTF's `KHR_lights_punctual` has them: no ray meets them by chance.
 
-use fog_core::Vec3A;
+use crate::light_tree::{Bound, Light, LightTree, Reach};
 use fog_core::colour::Rgb;
+use fog_core::{Vec3A, math};
+
+/// The lamps of a scene, ready to be chosen from.
+pub type LampTree = LightTree<Lamp>;
 
 /// A light at a point: all around, or in a cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,11 +78,28 @@ impl Lamp {
         ramp * ramp
     }
 
-    /// Largest component of the intensity.
+    /// Largest component of the intensity in any direction.
     #[inline]
     #[must_use]
     pub fn strength(&self) -> f32 {
         self.intensity.iter().fold(0.0, |a, &b| a.max(b))
+    }
+}
+
+impl Light for Lamp {
+    const COSINE: bool = false;
+
+    fn bound(&self) -> Bound {
+        let reach = match self.cone {
+            Some(cone) => Reach { axis: cone.axis, angle: math::f32::acos(cone.cos_outer.clamp(-1.0, 1.0)) },
+            None => Reach::ALL,
+        };
+        Bound { lower: self.position, upper: self.position, strength: f64::from(self.strength()), reach }
+    }
+
+    #[inline]
+    fn share(&self, offset: Vec3A, _: f32) -> f32 {
+        self.falloff(offset.try_normalize().unwrap_or(Vec3A::Y))
     }
 }
 

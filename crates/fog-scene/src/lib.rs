@@ -1,5 +1,6 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
 
+mod aim;
 mod attributes;
 mod bvh;
 mod error;
@@ -26,9 +27,9 @@ pub mod bsdf;
 pub mod camera;
 pub mod emitters;
 pub mod lamp;
-pub mod lamp_tree;
 pub mod light;
 pub mod light_groups;
+pub mod light_tree;
 pub mod medium;
 pub mod phase;
 pub mod scene;

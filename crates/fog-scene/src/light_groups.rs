@@ -11,7 +11,7 @@ pub enum LightSource {
     Sun,
     /// An emitting surface: the triangle of the geometry.
     Emitter(u32),
-    /// A point or spot: index in [`crate::lamp_tree::LampTree::lamps`].
+    /// A point or spot: index in [`crate::light_tree::LightTree::lights`].
     Lamp(usize),
     /// A directional light: index in [`crate::scene::Scene::beams`].
     Beam(usize),

@@ -2,16 +2,15 @@
 
 use crate::bsdf::Bsdf;
 use crate::bvh::Hit;
-use crate::emitters::{EmitterTriangle, Emitters};
+use crate::emitters::{EmitterTriangle, Emitters, pieces};
 use crate::gltf_load::LoadedScene;
-use crate::lamp::{Beam, Lamp};
-use crate::lamp_tree::LampTree;
+use crate::lamp::{Beam, Lamp, LampTree};
 use crate::light::{Environment, Sun};
 use crate::light_groups::{Grouping, LightGroups, LightSource};
 use crate::material::AlphaMode;
 use crate::medium::Medium;
 use crate::sky_map::SkyMap;
-use crate::triangle::SurfacePoint;
+use crate::triangle::{SurfacePoint, Triangle};
 use fog_core::colour::{Rgb, upsample};
 use fog_core::spectrum::Spectrum;
 use fog_core::{Vec3A, warp};
@@ -59,8 +58,16 @@ pub struct Surface {
 /// Largest share of light that counts as having passed before a surface is met, so that something is left to divide by.
 const LARGEST_CLEAR: f32 = 0.999_999;
 
-/// Points per triangle edge at which a textured emission is averaged to get the triangle's power.
-const POWER_GRID: u32 = 12;
+/// Parts of a triangle's edge by whose middles a textured emission is averaged.
+const POWER_GRID: u32 = 24;
+/// Pieces of an edge into which a triangle is cut whose emission varies, where emitting triangles are few ...
+const FINEST_PIECES: u32 = 8;
+/// ... up to this number. Beyond it half as many ...
+const FEW_EMITTERS: usize = 2_000;
+/// ... and beyond this none: there are then pieces enough.
+const MANY_EMITTERS: usize = 20_000;
+/// Greatest radiance of a piece over the triangle's mean from which on it pays to tell the pieces apart.
+const CONTRAST: f32 = 1.5;
 
 impl Scene {
     /// Puts a frame's scene together; `scene_emitters` switches the emission of all materials and the lights of the scene
@@ -107,7 +114,7 @@ impl Scene {
     #[must_use]
     pub fn with_luminance_of_one(mut self, cd_m2: f64) -> Self {
         self.of_one_nit = (1.0 / cd_m2) as f32;
-        if !(self.lamps.lamps().is_empty() && self.beams.is_empty()) {
+        if !(self.lamps.lights().is_empty() && self.beams.is_empty()) {
             self.light_lamps();
         }
         self
@@ -131,7 +138,7 @@ impl Scene {
             self.emitters = find_emitters(&self.loaded, Some(&grouping));
         }
         self.grouping = Some(grouping);
-        if !(self.lamps.lamps().is_empty() && self.beams.is_empty()) {
+        if !(self.lamps.lights().is_empty() && self.beams.is_empty()) {
             self.light_lamps();
         }
         self
@@ -335,34 +342,54 @@ fn tangent_frame(point: &SurfacePoint, tangent: Option<[f32; 4]>) -> Option<Mat3
     Some(Mat3A::from_cols(tangent, normal.cross(tangent) * 1.0f32.copysign(sign), normal))
 }
 
-/// All triangles whose material emits, with their power up to a common factor.
+/// All triangles whose material emits, with the radiance of their pieces.
 fn find_emitters(loaded: &LoadedScene, grouping: Option<&Grouping>) -> Emitters {
     let all = loaded.geometry.triangles();
-    let mut triangles = Vec::new();
-    for (id, triangle) in all.iter().enumerate() {
-        let material = &loaded.materials[triangle.material as usize];
-        if !material.is_emissive() {
-            continue;
-        }
-        // Mean emission over an even grid of points; red, green and blue count alike, for all must be found.
-        let mut sum = 0.0;
-        for i in 0..POWER_GRID {
-            for j in 0..POWER_GRID - i {
-                let at = |k: u32| (k as f32 + 1.0 / 3.0) / POWER_GRID as f32;
-                let uv = triangle.uv_at(at(i), at(j));
+    let material = |t: &Triangle| &loaded.materials[t.material as usize];
+    let emitting = || all.iter().enumerate().filter(|(_, t)| material(t).is_emissive());
+    let finest = match emitting().count() {
+        ..=FEW_EMITTERS => FINEST_PIECES,
+        n if n <= MANY_EMITTERS => FINEST_PIECES / 2,
+        _ => 1,
+    };
+    let triangles: Vec<_> = emitting()
+        .map(|(id, triangle)| {
+            let material = material(triangle);
+            // Red, green and blue count alike, for all must be found.
+            let radiance = |[u, v]: [f32; 2]| {
+                let uv = triangle.uv_at(u, v);
                 let rgb = material.emission(&loaded.textures, &uv);
-                let coverage = material.coverage(&loaded.textures, &uv, 1.0);
-                sum += f64::from(rgb.iter().sum::<f32>() * coverage);
+                rgb.iter().sum::<f32>() * material.coverage(&loaded.textures, &uv, 1.0)
+            };
+            let even = material.emissive_texture.is_none() && material.alpha_mode == AlphaMode::Opaque;
+            let per_edge = if even { 1 } else { finest };
+            let steps = if even { 1 } else { (POWER_GRID / per_edge).min(POWER_GRID / 2) };
+            let mut means: Vec<f32> =
+                pieces(per_edge).map(|corners| mean(corners, steps, radiance)).collect();
+            let whole = means.iter().sum::<f32>() / means.len() as f32;
+            let varies = means.iter().any(|&m| m > CONTRAST * whole);
+            if !varies {
+                means = vec![whole];
             }
-        }
-        let group = |g: &Grouping| g.groups.intensity(g.of_surface(triangle.object, triangle.material));
-        let intensity = f64::from(grouping.map_or(1.0, group));
-        let sides = if material.double_sided { 2.0 } else { 1.0 };
-        triangles.push(EmitterTriangle {
-            triangle: id as u32,
-            corners: triangle.positions.map(Vec3A::from),
-            power: sum * sides * f64::from(triangle.area()) * intensity,
-        });
-    }
-    Emitters::new(triangles, all.len())
+            let group = |g: &Grouping| g.groups.intensity(g.of_surface(triangle.object, triangle.material));
+            let intensity = grouping.map_or(1.0, group);
+            EmitterTriangle {
+                triangle: id as u32,
+                corners: triangle.positions.map(Vec3A::from),
+                two_sided: material.double_sided,
+                per_edge: if varies { per_edge } else { 1 },
+                radiance: means.into_iter().map(|m| m * intensity).collect(),
+            }
+        })
+        .collect();
+    Emitters::new(&triangles, all.len())
+}
+
+/// Mean of `value` over the centres of `steps`² even parts of a triangle.
+fn mean(corners: [[f32; 2]; 3], steps: u32, value: impl Fn([f32; 2]) -> f32) -> f32 {
+    let [a, b, c] = corners;
+    let place = |[u, v]: [f32; 2]| [0, 1].map(|k| a[k] + (b[k] - a[k]) * u + (c[k] - a[k]) * v);
+    let centre = |[p, q, r]: [[f32; 2]; 3]| [0, 1].map(|k| (p[k] + q[k] + r[k]) / 3.0);
+    let sum: f32 = pieces(steps).map(|part| value(place(centre(part)))).sum();
+    sum / (steps * steps) as f32
 }

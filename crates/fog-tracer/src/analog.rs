@@ -111,7 +111,7 @@ impl PathTracer<'_> {
         rng: &mut PathRng,
         value: impl Fn(Vec3A) -> (f32, Vec3A),
     ) -> f32 {
-        let lamps = (0..self.scene.lamps().lamps().len()).filter_map(|i| {
+        let lamps = (0..self.scene.lamps().lights().len()).filter_map(|i| {
             let light = lamp_light(self.scene, i, from, 1.0, basis)?;
             Some((light.direction, light.distance, light.radiance[0]))
         });

@@ -6,7 +6,7 @@
 //! heuristic: their densities are closed forms, for the layer's transmittance is exact.
 
 use fog_core::{Vec3A, math};
-use fog_scene::lamp_tree::Receiver;
+use fog_scene::light_tree::Receiver;
 
 /// Distance from the line below which a lamp counts as no nearer, in metres.
 const NEAREST_M: f64 = 1e-3;

@@ -9,15 +9,11 @@ use fog_core::colour::upsample;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
 use fog_scene::Hit;
-use fog_scene::lamp_tree::Receiver;
+use fog_scene::emitters::Breadth;
 use fog_scene::light_groups::LightSource;
+use fog_scene::light_tree::Receiver;
 use fog_scene::scene::Scene;
 
-/// Emitters of up to this area together are always aimed at: they are hard to run into.
-const FULL_SHARE_M2: f32 = 100.0;
-/// Share of connections to emitters of any size. Whole façades are run into anyway: in the quickstart's nights a share of
-/// 0.1 instead of 1 takes 22 % less time at 2 % more noise.
-const LEAST_SHARE: f32 = 0.1;
 /// Distance at which the strongest lamp says what light of lamps is faint, in metres.
 const LAMP_LEVEL_M: f32 = 100.0;
 
@@ -26,7 +22,8 @@ const LAMP_LEVEL_M: f32 = 100.0;
 pub(crate) struct LightMix {
     sun: f32,
     sky: f32,
-    emitters: f32,
+    compact: f32,
+    broad: f32,
     lamps: f32,
     beams: f32,
     shadow_scale: f32,
@@ -61,24 +58,25 @@ impl LightSample {
 
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let (sun, sky, emitters) = (scene.sun.is_some(), scene.sky.is_some(), !scene.emitters().is_empty());
-        let (lamps, beams) = (!scene.lamps().lamps().is_empty(), !scene.beams().is_empty());
-        let kinds = [sun, sky, emitters, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
+        let (sun, sky) = (scene.sun.is_some(), scene.sky.is_some());
+        let [compact, broad] = [Breadth::Compact, Breadth::Broad].map(|b| scene.emitters().has(b));
+        let (lamps, beams) = (!scene.lamps().lights().is_empty(), !scene.beams().is_empty());
+        let kinds = [sun, sky, compact, broad, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
         let share = 1.0 / kinds.iter().sum::<f32>().max(1.0);
-        let small = (FULL_SHARE_M2 / scene.emitters().area_m2()).clamp(LEAST_SHARE, 1.0);
         // Contributions below a fraction of what the scene's lights give are played for (expected value unchanged).
         let sun_level = scene.sun.map_or(0.0, |s| s.irradiance / core::f32::consts::PI);
         let strongest = |values: &mut dyn Iterator<Item = f32>| values.fold(0.0f32, f32::max);
-        let lamp_level = strongest(&mut scene.lamps().lamps().iter().map(|l| l.strength()))
+        let lamp_level = strongest(&mut scene.lamps().lights().iter().map(|l| l.strength()))
             / (LAMP_LEVEL_M * LAMP_LEVEL_M * core::f32::consts::PI);
         let beam_level = strongest(&mut scene.beams().iter().map(|b| b.strength())) / core::f32::consts::PI;
         let sky_level = scene.sky.as_ref().map_or(0.0, |sky| sky.mean());
-        let level =
-            sun_level.max(sky_level).max(if emitters { 0.1 } else { 0.0 }).max(lamp_level).max(beam_level);
+        let emitter_level = if compact || broad { 0.1 } else { 0.0 };
+        let level = sun_level.max(sky_level).max(emitter_level).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
             sky: if sky { share } else { 0.0 },
-            emitters: if emitters { share * small } else { 0.0 },
+            compact: if compact { share } else { 0.0 },
+            broad: if broad { share } else { 0.0 },
             lamps: if lamps { share } else { 0.0 },
             beams: if beams { share } else { 0.0 },
             shadow_scale: if level > 0.0 { 1.0 / (0.02 * level) } else { 1.0 },
@@ -87,7 +85,7 @@ impl LightMix {
 
     #[inline]
     pub(crate) fn any(&self) -> bool {
-        self.sun + self.sky + self.emitters + self.lamps + self.beams > 0.0
+        self.sun + self.sky + self.compact + self.broad + self.lamps + self.beams > 0.0
     }
 
     #[inline]
@@ -100,9 +98,26 @@ impl LightMix {
         self.sky
     }
 
+    /// Probability of aiming at emitters of this breadth.
     #[inline]
-    pub(crate) fn emitter_probability(&self) -> f32 {
-        self.emitters
+    fn emitters(&self, scene: &Scene, breadth: Breadth, from: Vec3A) -> f32 {
+        let share = match breadth {
+            Breadth::Compact => self.compact,
+            Breadth::Broad => self.broad,
+        };
+        if share == 0.0 { 0.0 } else { share * scene.emitters().aim(breadth, from) }
+    }
+
+    /// Density in 1/sr with which [`LightMix::sample`] finds, from the start of a ray, the emitting point that the ray hits
+    /// under this cosine.
+    #[inline]
+    pub(crate) fn emitter_pdf(&self, scene: &Scene, from: Vec3A, hit: &Hit, cos: f32) -> f32 {
+        let emitters = scene.emitters();
+        let aimed = self.emitters(scene, emitters.breadth(hit.triangle), from);
+        if aimed == 0.0 || cos <= 0.0 {
+            return 0.0;
+        }
+        aimed * emitters.pdf_area(hit, from) * hit.t * hit.t / cos
     }
 
     /// Probability of aiming at any lamp.
@@ -142,7 +157,7 @@ impl LightMix {
                 source: LightSource::Sun,
             });
         }
-        let pick = pick - self.sun;
+        let mut pick = pick - self.sun;
         if let Some(sky) = scene.sky.as_ref().filter(|_| pick < self.sky) {
             let sample = sky.sample([rng.uniform_f64(), rng.uniform_f64()], lanes.sky());
             return Some(LightSample {
@@ -154,29 +169,15 @@ impl LightMix {
                 source: LightSource::Environment,
             });
         }
-        let pick = pick - self.sky;
-        if pick >= self.emitters {
-            return self.without_extent(scene, from, pick - self.emitters, &lanes.basis, rng);
+        pick -= self.sky;
+        for breadth in [Breadth::Compact, Breadth::Broad] {
+            let share = self.emitters(scene, breadth, from);
+            if pick < share {
+                return emitter_light(scene, breadth, from, share, &lanes.basis, rng);
+            }
+            pick -= share;
         }
-        let point = scene.emitters().sample(rng.uniform(), rng.uniform2())?;
-        let offset = point.position - from;
-        let distance = offset.length();
-        let direction = offset / distance;
-        let [u, v] = point.barycentric;
-        let (rgb, normal) =
-            scene.emission_towards(&Hit { t: distance, triangle: point.triangle, u, v }, direction);
-        let cos = normal.dot(direction).abs();
-        if rgb == [0.0; 3] || cos <= 0.0 || distance <= 0.0 {
-            return None;
-        }
-        Some(LightSample {
-            direction,
-            distance,
-            radiance: upsample(rgb, &lanes.basis),
-            pdf: self.emitters * point.pdf_area * distance * distance / cos,
-            beam: false,
-            source: LightSource::Emitter(point.triangle),
-        })
+        self.without_extent(scene, from, pick, &lanes.basis, rng)
     }
 
     /// Draws a lamp or a beam; `pick` is what remains of the choice of its kind.
@@ -209,6 +210,36 @@ impl LightMix {
     }
 }
 
+/// A point of an emitter of this breadth, which is drawn with `probability`, seen from a point; `None` if none is lit.
+fn emitter_light(
+    scene: &Scene,
+    breadth: Breadth,
+    from: Vec3A,
+    probability: f32,
+    basis: &[Spectrum; 3],
+    rng: &mut PathRng,
+) -> Option<LightSample> {
+    let point = scene.emitters().sample(breadth, from, rng.uniform_f64(), rng.uniform2())?;
+    let offset = point.position - from;
+    let distance = offset.length();
+    let direction = offset / distance;
+    let [u, v] = point.barycentric;
+    let (rgb, normal) =
+        scene.emission_towards(&Hit { t: distance, triangle: point.triangle, u, v }, direction);
+    let cos = normal.dot(direction).abs();
+    if rgb == [0.0; 3] || cos <= 0.0 || distance <= 0.0 {
+        return None;
+    }
+    Some(LightSample {
+        direction,
+        distance,
+        radiance: upsample(rgb, basis),
+        pdf: probability * point.pdf_area * distance * distance / cos,
+        beam: false,
+        source: LightSource::Emitter(point.triangle),
+    })
+}
+
 /// A lamp seen from a point, found with this probability; `None` where it does not shine.
 pub(crate) fn lamp_light(
     scene: &Scene,
@@ -217,7 +248,7 @@ pub(crate) fn lamp_light(
     probability: f32,
     basis: &[Spectrum; 3],
 ) -> Option<LightSample> {
-    let lamp = &scene.lamps().lamps()[index];
+    let lamp = &scene.lamps().lights()[index];
     let offset = lamp.position - from;
     let distance = offset.length();
     let direction = offset / distance;

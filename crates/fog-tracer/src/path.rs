@@ -77,6 +77,8 @@ pub struct PathRadiance {
 /// State of a path between two events.
 pub(crate) struct Path {
     pub(crate) origin: Vec3A,
+    /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
+    vertex: Vec3A,
     pub(crate) direction: Vec3A,
     pub(crate) beta: Spectrum,
     r_u: Spectrum,
@@ -245,7 +247,9 @@ impl<'a> PathTracer<'a> {
     #[inline(always)]
     fn fly(&self, path: &mut Path, lanes: &Lanes, u: f64) -> (Event, f64) {
         if self.is_patchy() {
-            return self.fly_through_patches(path, lanes, u);
+            let (event, end, crossed) = self.fly_through_patches(path.origin, path.direction, lanes, u);
+            path.crossed = Some(crossed);
+            return (event, end);
         }
         let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
             let tau = math::neg_ln(1.0 - u);
@@ -300,6 +304,7 @@ impl<'a> PathTracer<'a> {
         }
         path.beta *= medium.profile.albedo(y_hit, &lanes.profile);
         path.origin += path.direction * t as f32;
+        path.vertex = path.origin;
         let scatterer = medium.phase.scatterer(medium.profile.zeta(y_hit), &lanes.phase, rng);
         path.beta *= scatterer.probability_ratio;
         path.r_u *= scatterer.probability_ratio;
@@ -370,8 +375,8 @@ impl<'a> PathTracer<'a> {
             return Spectrum::ZERO;
         }
         let cos = -surface.normal.dot(path.direction);
-        let area = self.scene.emitters().pdf_area(hit.triangle) * self.lights.emitter_probability();
-        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        let pdf =
+            if path.depth == 0 { 0.0 } else { self.lights.emitter_pdf(self.scene, path.vertex, hit, cos) };
         path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
@@ -420,7 +425,7 @@ impl<'a> PathTracer<'a> {
 impl Path {
     pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
         let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
-        Self { origin, direction, beta, r_u, r_l, depth: 0, crossed: None }
+        Self { origin, vertex: origin, direction, beta, r_u, r_l, depth: 0, crossed: None }
     }
 
     fn weights(&self) -> Weights {
@@ -436,6 +441,8 @@ impl Path {
 
 /// How a surface turns a path.
 pub(crate) struct SurfaceTurn {
+    /// The surface's point, from where lights are chosen.
+    pub(crate) vertex: Vec3A,
     pub(crate) origin: Vec3A,
     pub(crate) direction: Vec3A,
     /// BSDF times cosine over `pdf`.
@@ -454,8 +461,8 @@ pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut Pat
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return None;
     }
-    let origin = surface.point.spawn_origin(direction);
-    Some(SurfaceTurn { origin, direction, weight: sample.weight, pdf: sample.pdf })
+    let (vertex, origin) = (surface.point.position, surface.point.spawn_origin(direction));
+    Some(SurfaceTurn { vertex, origin, direction, weight: sample.weight, pdf: sample.pdf })
 }
 
 /// Reflects the path at a surface or sends it through; false if it ends there.
@@ -463,7 +470,7 @@ pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut P
     let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
     path.beta *= turn.weight;
     path.r_l = path.r_u * (1.0 / turn.pdf);
-    (path.origin, path.direction) = (turn.origin, turn.direction);
+    (path.vertex, path.origin, path.direction) = (turn.vertex, turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
 }

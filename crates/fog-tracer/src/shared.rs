@@ -53,6 +53,8 @@ pub(crate) struct SharedTracer<'a> {
 /// as in [`crate::path`].
 struct SharedPath<V> {
     origin: Vec3A,
+    /// The last event's place, from where lights were chosen.
+    vertex: Vec3A,
     direction: Vec3A,
     depth: u32,
     hero: usize,
@@ -225,6 +227,7 @@ impl<'a> SharedTracer<'a> {
             path.r_u[j] = path.r_u[j].times(ratio);
         }
         path.origin += path.direction * t as f32;
+        path.vertex = path.origin;
     }
 
     /// Connects a collision to the lights, then turns the path by the phase function of the hero.
@@ -404,9 +407,9 @@ impl<'a> SharedTracer<'a> {
             return;
         }
         let cos = -surface.normal.dot(path.direction);
-        let lights = &self.base.lights;
-        let area = self.base.scene.emitters().pdf_area(hit.triangle) * lights.emitter_probability();
-        let pdf = if path.depth == 0 || cos <= 0.0 { 0.0 } else { area * hit.t * hit.t / cos };
+        let Self { base, .. } = self;
+        let pdf =
+            if path.depth == 0 { 0.0 } else { base.lights.emitter_pdf(base.scene, path.vertex, hit, cos) };
         self.met(path, LightSource::Emitter(hit.triangle), surface.emission, pdf, found);
     }
 }
@@ -417,14 +420,25 @@ impl<V: Value> SharedPath<V> {
         let ones = live.map(|live| if live { V::ONE } else { V::ZERO });
         let Ray { origin, direction } = ray;
         let r_l = [V::ZERO; MAX_FOGS];
-        Self { origin, direction, depth: 0, hero, beta: Spectrum::ONE, t: ones, r_u: ones, r_l, live }
+        Self {
+            origin,
+            vertex: origin,
+            direction,
+            depth: 0,
+            hero,
+            beta: Spectrum::ONE,
+            t: ones,
+            r_u: ones,
+            r_l,
+            live,
+        }
     }
 
     fn scatter_at_surface(&mut self, surface: &Surface, rng: &mut PathRng) -> bool {
         let Some(turn) = turn_at_surface(self.direction, surface, rng) else { return false };
         self.beta *= turn.weight;
         self.r_l = self.r_u.map(|r| r.scaled(1.0 / turn.pdf));
-        (self.origin, self.direction) = (turn.origin, turn.direction);
+        (self.vertex, self.origin, self.direction) = (turn.vertex, turn.origin, turn.direction);
         self.depth += 1;
         !self.beta.is_zero()
     }

@@ -57,7 +57,7 @@ pub(crate) fn record(
         "tau_wavelength_nm": TAU_NM,
         "image": "direct + airlight",
     });
-    let (lamps, beams) = (scene.lamps().lamps().len(), scene.beams().len());
+    let (lamps, beams) = (scene.lamps().lights().len(), scene.beams().len());
     if lamps + beams > 0 {
         value["lighting"]["scene_lights"] = json!({
             "points_and_spots": lamps,

@@ -212,7 +212,10 @@ fn mistakes() {
     let truth = format!("out/{}.gt.exr", ids(&at.join("out"))[0]);
     for (args, parts) in [
         (vec!["small.png", "large.png"], vec!["small.png with large.png", "A has 2 x 3 pixels, B has 4 x 3"]),
-        (vec!["cat.png", "small.png"], vec!["cat.png is no picture", "neither PNG nor JPEG nor OpenEXR"]),
+        (
+            vec!["cat.png", "small.png"],
+            vec!["cat.png is no picture", "neither PNG nor JPEG nor Radiance HDR nor OpenEXR"],
+        ),
         (
             vec!["small.png", &truth],
             vec!["gt.exr is no picture", "neither channels R, G, B nor Y, but depth.Z"],

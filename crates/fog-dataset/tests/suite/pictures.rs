@@ -91,7 +91,7 @@ fn what_is_no_picture() {
     for (name, content) in [("a.png", &b"miaow"[..]), ("b.exr", b""), ("c.gif", b"GIF89a........")] {
         fs::write(path(name), content).expect("written");
         let e = refused(&path(name));
-        assert!(e.contains(name) && e.contains("neither PNG nor JPEG nor OpenEXR"), "{e}");
+        assert!(e.contains(name) && e.contains("neither PNG nor JPEG nor Radiance HDR nor OpenEXR"), "{e}");
     }
     for (name, content) in [("d.png", &b"\x89PNG\r\n\x1a\n...."[..]), ("e.exr", b"\x76\x2f\x31\x01...")] {
         fs::write(path(name), content).expect("written");

@@ -29,7 +29,7 @@ impl PathTracer<'_> {
         let mut density = path.r_u * light.density(value.density * transmittance);
         if let Some((flight, lamp)) = flight.zip(light.lamp()) {
             let lamps = self.scene.lamps();
-            let near = flight.segment.near(lamps.lamps()[lamp].position).pdf(flight.t) as f32;
+            let near = flight.segment.near(lamps.lights()[lamp].position).pdf(flight.t) as f32;
             density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
         }
         let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());

@@ -8,7 +8,7 @@ use fog_core::math;
 use fog_core::patchiness::Crossed;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
-use fog_scene::lamp_tree::Receiver;
+use fog_scene::light_tree::Receiver;
 
 /// How a flight through fog near lamps finds points: what other ways to a vertex a connection to a lamp must count.
 pub(super) struct Flight<'a> {
@@ -60,7 +60,7 @@ impl PathTracer<'_> {
         let Some((lamp, chosen)) = lamps.choose(&segment.receiver(), rng.uniform_f64()) else {
             return Spectrum::ZERO;
         };
-        let near = segment.near(lamps.lamps()[lamp].position);
+        let near = segment.near(lamps.lights()[lamp].position);
         let Some(t) = near.sample(rng.uniform_f64()) else { return Spectrum::ZERO };
         let point = path.origin + path.direction * t as f32;
         let Crossed { even_y, depth, density, .. } = self.cross(path, t, medium_lanes);

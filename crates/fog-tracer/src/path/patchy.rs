@@ -21,20 +21,25 @@ impl PathTracer<'_> {
     /// `fly` in patchy fog. The surface comes first, for walking through the fog behind it would cost more than its test.
     #[cold]
     #[inline(never)]
-    pub(super) fn fly_through_patches(&self, path: &mut Path, lanes: &Lanes, u: f64) -> (Event, f64) {
+    pub(super) fn fly_through_patches(
+        &self,
+        origin: Vec3A,
+        direction: Vec3A,
+        lanes: &Lanes,
+        u: f64,
+    ) -> (Event, f64, Crossed) {
         let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("patches are of fog");
         let patchy = medium.patchy.as_ref().expect("called in patchy fog");
-        let hit = self.scene.scatterer(path.origin, path.direction, f32::INFINITY, u.to_bits());
+        let hit = self.scene.scatterer(origin, direction, f32::INFINITY, u.to_bits());
         let end = hit.as_ref().map_or(f64::INFINITY, |hit| f64::from(hit.t));
         let tau = math::neg_ln(1.0 - u);
-        let crossed = patchy.fly(path.origin, path.direction, end, tau, &lanes.profile);
-        path.crossed = Some(crossed);
+        let crossed = patchy.fly(origin, direction, end, tau, &lanes.profile);
         let event = match hit {
             _ if crossed.collided => Event::Collision { t: crossed.t, tau },
             Some(hit) => Event::Surface(hit),
             None => Event::Escape,
         };
-        (event, end)
+        (event, end, crossed)
     }
 
     /// What the path's flight crosses on its first `t` metres.

@@ -1,55 +1,86 @@
-//! Choosing one of many lamps: a tree over them, descended by how much light each half may send.
+//! Choosing one of many lights: a tree over them, descended by how much light each half may send.
 //!
 //! After Conty Estevez & Kulla, *Importance Sampling of Many Lights with Adaptive Tree Splitting* (2018), without the
-//! splitting: a node knows a sphere around its lamps, the sum of their strengths and a cone around all directions that they
-//! shine in. Half a tree whose cone cannot reach the receiver is never chosen; of one lamp the exact value counts.
+//! splitting: a node knows a sphere around its lights, the sum of their strengths and a cone around all directions that they
+//! shine in. Half a tree whose cone cannot reach the receiver is never chosen; of one light its own value counts.
 
-use crate::lamp::Lamp;
 use fog_core::Vec3A;
 use fog_core::math;
 
 /// Levels that are split by cost; below them halves are of equal count, which bounds the depth.
 const COST_LEVELS: u32 = 24;
+/// Places at which the lights along an axis may be split.
+const CUTS: usize = 8;
 /// Smallest probability of either half where both may give light: rounding must not make it 0.
 const LEAST: f32 = 1e-6;
-/// Squared distance below which lamps count as no nearer, in m².
+/// Squared distance below which lights count as no nearer, in m².
 const NEAREST_M2: f32 = 1e-6;
 /// What a cone's cosine test is widened by, against rounding.
 const COS_MARGIN: f32 = 1e-4;
 
-/// The lamps of a scene, ready to be chosen from.
-#[derive(Clone, Debug, Default)]
-pub struct LampTree {
-    lamps: Vec<Lamp>,
+/// What a tree must know of a light.
+pub trait Light {
+    /// Whether light leaves by the cosine to a normal, as from surfaces: a cone's middle, all but the outer 90°, is that of
+    /// the normals.
+    const COSINE: bool;
+
+    /// Where it is, how strong it is and where it shines.
+    fn bound(&self) -> Bound;
+
+    /// Share of its strength that goes to a receiver at `offset` from the centre of its bound, in [0, 1]; `squared` is the
+    /// offset's squared length. 0 only if no part of it shines there.
+    fn share(&self, offset: Vec3A, squared: f32) -> f32;
+}
+
+/// Extent, strength and directions of a light, or of several.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound {
+    /// Lowest corner of the box around them, in metres.
+    pub lower: Vec3A,
+    /// Highest corner.
+    pub upper: Vec3A,
+    /// Intensity up to a common factor; 0 or less is left out of a tree.
+    pub strength: f64,
+    /// All directions that they shine in.
+    pub reach: Reach,
+}
+
+/// A cone of directions.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    /// Its axis, a unit vector.
+    pub axis: Vec3A,
+    /// Its half-angle in radians; π for every direction.
+    pub angle: f32,
+}
+
+/// Lights, ready to be chosen from.
+#[derive(Clone, Debug)]
+pub struct LightTree<L> {
+    lights: Vec<L>,
     nodes: Vec<Node>,
-    /// Right and left turns (1 and 0, from the root in the lowest bit) to each lamp.
+    /// Right and left turns (1 and 0, from the root in the lowest bit) to each light.
     turns: Vec<u64>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
     centre: Vec3A,
+    axis: Vec3A,
     radius: f32,
     strength: f32,
-    cone: Reach,
+    /// Cosine and sine of the cone's half-angle; none for every direction.
+    cone: Option<[f32; 2]>,
     kind: Kind,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    Lamp(u32),
+    Light(u32),
     /// The left child follows its parent.
     Split {
         right: u32,
     },
-}
-
-/// All directions that some lamps shine in.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    axis: Vec3A,
-    /// Half-angle in radians; π for every direction.
-    angle: f32,
 }
 
 /// What receives light.
@@ -70,49 +101,56 @@ pub enum Receiver {
     },
 }
 
-impl LampTree {
-    /// Builds the tree; lamps without light are left out. The result depends on the lamps' order only in ties.
+impl<L> Default for LightTree<L> {
+    fn default() -> Self {
+        Self { lights: Vec::new(), nodes: Vec::new(), turns: Vec::new() }
+    }
+}
+
+impl<L: Light> LightTree<L> {
+    /// Builds the tree; lights without strength are left out. The result depends on the lights' order only in ties.
     #[must_use]
-    pub fn new(lamps: impl IntoIterator<Item = Lamp>) -> Self {
-        let lamps: Vec<Lamp> = lamps.into_iter().filter(|l| l.strength() > 0.0).collect();
+    pub fn new(lights: impl IntoIterator<Item = L>) -> Self {
+        let lights: Vec<L> = lights.into_iter().filter(|l| l.bound().strength > 0.0).collect();
+        let bounds: Vec<Bound> = lights.iter().map(Light::bound).collect();
         let mut tree =
-            Self { nodes: Vec::with_capacity(2 * lamps.len()), turns: vec![0; lamps.len()], lamps };
-        let mut order: Vec<u32> = (0..tree.lamps.len() as u32).collect();
+            Self { nodes: Vec::with_capacity(2 * lights.len()), turns: vec![0; lights.len()], lights };
+        let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
         if !order.is_empty() {
-            tree.build(&mut order, 0, 0);
+            tree.build(&bounds, &mut order, 0, 0);
         }
         tree
     }
 
-    /// The lamps; [`LampTree::choose`] gives indices of them.
+    /// The lights; [`LightTree::choose`] gives indices of them.
     #[must_use]
-    pub fn lamps(&self) -> &[Lamp] {
-        &self.lamps
+    pub fn lights(&self) -> &[L] {
+        &self.lights
     }
 
-    fn build(&mut self, order: &mut [u32], turns: u64, depth: u32) {
+    fn build(&mut self, bounds: &[Bound], order: &mut [u32], turns: u64, depth: u32) {
         let index = self.nodes.len();
-        self.nodes.push(bound(&self.lamps, order));
-        if let [lamp] = *order {
-            self.nodes[index].kind = Kind::Lamp(lamp);
-            self.turns[lamp as usize] = turns;
+        let whole = Bound::around(bounds, order);
+        self.nodes.push(Node::new(&whole));
+        if let [light] = *order {
+            self.nodes[index].kind = Kind::Light(light);
+            self.turns[light as usize] = turns;
             return;
         }
-        let middle = split(&self.lamps, order, depth < COST_LEVELS);
+        let middle = split(bounds, order, &whole, depth < COST_LEVELS);
         let (left, right) = order.split_at_mut(middle);
-        self.build(left, turns, depth + 1);
+        self.build(bounds, left, turns, depth + 1);
         self.nodes[index].kind = Kind::Split { right: self.nodes.len() as u32 };
-        self.build(right, turns | 1 << depth, depth + 1);
+        self.build(bounds, right, turns | 1 << depth, depth + 1);
     }
-
-    /// Chooses a lamp: its index and the probability of the choice. `None` if no lamp reaches the receiver.
+    /// Chooses a light: its index and the probability of the choice. `None` if no light reaches the receiver.
     #[must_use]
     pub fn choose(&self, receiver: &Receiver, mut pick: f64) -> Option<(usize, f32)> {
         let mut index = 0;
         let mut probability = 1.0;
         loop {
             match self.nodes.get(index)?.kind {
-                Kind::Lamp(lamp) => return Some((lamp as usize, probability)),
+                Kind::Light(light) => return Some((light as usize, probability)),
                 Kind::Split { right } => {
                     let left = self.left_share(index, right, receiver)?;
                     if pick < f64::from(left) {
@@ -129,10 +167,10 @@ impl LampTree {
         }
     }
 
-    /// Probability with which [`LampTree::choose`] finds this lamp.
+    /// Probability with which [`LightTree::choose`] finds this light.
     #[must_use]
-    pub fn probability(&self, lamp: usize, receiver: &Receiver) -> f32 {
-        let mut turns = self.turns[lamp];
+    pub fn probability(&self, light: usize, receiver: &Receiver) -> f32 {
+        let mut turns = self.turns[light];
         let mut index = 0;
         let mut probability = 1.0;
         while let Kind::Split { right } = self.nodes[index].kind {
@@ -168,15 +206,11 @@ impl LampTree {
             Receiver::Point(point) => {
                 let offset = point - node.centre;
                 let squared = offset.length_squared();
-                let falloff = match node.kind {
-                    Kind::Lamp(lamp) => {
-                        let away = offset.try_normalize().unwrap_or(Vec3A::Y);
-                        self.lamps[lamp as usize].falloff(away)
-                    }
-                    Kind::Split { .. } if node.misses(offset, squared) => 0.0,
-                    Kind::Split { .. } => 1.0,
+                let share = match node.kind {
+                    Kind::Light(light) => self.lights[light as usize].share(offset, squared),
+                    Kind::Split { .. } => node.share(offset, squared, L::COSINE),
                 };
-                node.strength * falloff / squared.max(node.radius * node.radius).max(NEAREST_M2)
+                node.strength * share / squared.max(node.radius * node.radius).max(NEAREST_M2)
             }
             // ∫ dt / d² along the segment, of the sphere's centre, not nearer than the sphere's edge.
             Receiver::Segment { origin, direction, enter, exit } => {
@@ -193,27 +227,46 @@ impl LampTree {
 }
 
 impl Node {
-    /// True if no lamp of the node shines at a point at `offset` from its centre.
+    fn new(bound: &Bound) -> Self {
+        let Bound { lower, upper, strength, reach } = *bound;
+        let cone =
+            (reach.angle < math::PI_F32).then(|| [math::f32::cos(reach.angle), math::f32::sin(reach.angle)]);
+        // Rounded up, so that everything is inside.
+        let radius = 0.5 * (upper - lower).length() * (1.0 + 1e-5);
+        let (centre, axis) = (0.5 * (lower + upper), reach.axis);
+        Self { centre, axis, radius, strength: strength as f32, cone, kind: Kind::Light(0) }
+    }
+
+    /// At least the share of the node's strength that goes to a point at `offset` from its centre; 0 only if none does.
     #[inline]
-    fn misses(&self, offset: Vec3A, squared: f32) -> bool {
-        if self.cone.angle >= math::PI_F32 || squared <= self.radius * self.radius {
-            return false;
+    fn share(&self, offset: Vec3A, squared: f32, cosine: bool) -> f32 {
+        let Some([cos_cone, sin_cone]) = self.cone else { return 1.0 };
+        if squared <= self.radius * self.radius {
+            return 1.0;
         }
-        // The point is seen from all of the sphere within this angle of the direction from its centre.
-        let distance = squared.sqrt();
-        let spread = math::f32::asin((self.radius / distance).min(1.0));
-        let limit = self.cone.angle + spread;
-        limit < math::PI_F32 && offset.dot(self.cone.axis) < distance * (math::f32::cos(limit) - COS_MARGIN)
+        // The point's angle to the axis as seen from the centre, less what it may be as seen from elsewhere in the sphere.
+        let inverse = 1.0 / squared.sqrt();
+        let cos = (offset.dot(self.axis) * inverse).clamp(-1.0, 1.0);
+        let sin = (1.0 - cos * cos).sqrt();
+        let sin_seen = (self.radius * inverse).min(1.0);
+        let cos_seen = (1.0 - sin_seen * sin_seen).sqrt();
+        let (cos, sin) = if cos >= cos_seen {
+            (1.0, 0.0)
+        } else {
+            (cos * cos_seen + sin * sin_seen, (sin * cos_seen - cos * sin_seen).max(0.0))
+        };
+        if !cosine {
+            return if cos < cos_cone - COS_MARGIN { 0.0 } else { 1.0 };
+        }
+        // The cone is that of the normals, widened by 90°: what is left of the angle beyond the former.
+        let (cos_normals, sin_normals) = (sin_cone, -cos_cone);
+        if cos >= cos_normals { 1.0 } else { (cos * cos_normals + sin * sin_normals + COS_MARGIN).max(0.0) }
     }
 }
 
 impl Reach {
-    fn of(lamp: &Lamp) -> Self {
-        match lamp.cone {
-            Some(cone) => Self { axis: cone.axis, angle: math::f32::acos(cone.cos_outer.clamp(-1.0, 1.0)) },
-            None => Self { axis: Vec3A::Y, angle: math::PI_F32 },
-        }
-    }
+    /// Every direction.
+    pub const ALL: Self = Self { axis: Vec3A::Y, angle: math::PI_F32 };
 
     /// A cone around both.
     fn join(self, other: Self) -> Self {
@@ -242,45 +295,64 @@ impl Reach {
     }
 }
 
-fn bound(lamps: &[Lamp], order: &[u32]) -> Node {
-    let mut lower = Vec3A::splat(f32::INFINITY);
-    let mut upper = -lower;
-    let mut strength = 0.0f64;
-    let mut cone: Option<Reach> = None;
-    for lamp in order.iter().map(|&i| &lamps[i as usize]) {
-        lower = lower.min(lamp.position);
-        upper = upper.max(lamp.position);
-        strength += f64::from(lamp.strength());
-        let own = Reach::of(lamp);
-        cone = Some(cone.map_or(own, |c| c.join(own)));
+impl Bound {
+    /// Around nothing.
+    const NONE: Self =
+        Self { lower: Vec3A::INFINITY, upper: Vec3A::NEG_INFINITY, strength: 0.0, reach: Reach::ALL };
+
+    fn join(self, other: Self) -> Self {
+        if self.strength == 0.0 {
+            return other;
+        }
+        if other.strength == 0.0 {
+            return self;
+        }
+        Self {
+            lower: self.lower.min(other.lower),
+            upper: self.upper.max(other.upper),
+            strength: self.strength + other.strength,
+            reach: self.reach.join(other.reach),
+        }
     }
-    let centre = 0.5 * (lower + upper);
-    let cone = cone.unwrap_or(Reach { axis: Vec3A::Y, angle: math::PI_F32 });
-    // Rounded up, so that every lamp is inside.
-    let radius = if order.len() == 1 { 0.0 } else { 0.5 * (upper - lower).length() * (1.0 + 1e-5) };
-    Node { centre, radius, strength: strength as f32, cone, kind: Kind::Lamp(0) }
+
+    fn around(bounds: &[Self], order: &[u32]) -> Self {
+        order.iter().map(|&i| bounds[i as usize]).fold(Self::NONE, Self::join)
+    }
+
+    /// Strength × squared extent × solid angle of the cone.
+    fn cost(&self) -> f64 {
+        self.strength * f64::from((self.upper - self.lower).length_squared() * self.reach.measure())
+    }
 }
 
-/// Orders lamps along the axis of the cheapest split (strength × squared extent × solid angle of the cones, both sides
-/// together) and returns the size of the first part.
-fn split(lamps: &[Lamp], order: &mut [u32], by_cost: bool) -> usize {
+/// Orders lights along the axis of the split that costs least, both sides together, and returns the size of the first part.
+fn split(bounds: &[Bound], order: &mut [u32], whole: &Bound, by_cost: bool) -> usize {
     let n = order.len();
-    let cost = |node: &Node| node.strength * node.radius * node.radius * node.cone.measure();
-    let whole = bound(lamps, order);
+    let extent = whole.upper - whole.lower;
     let sort = |order: &mut [u32], axis: usize| {
-        let key = |i: u32| lamps[i as usize].position[axis];
+        let key = |i: u32| bounds[i as usize].lower[axis] + bounds[i as usize].upper[axis];
         order.sort_by(|&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
     };
-    let mut best = (f32::INFINITY, longest_axis(lamps, order), n / 2);
-    // Prefixes of many lamps are measured at a few places only: 8 or so cuts are as good as all.
-    let cuts: Vec<usize> = if n <= 16 { (1..n).collect() } else { (1..8).map(|k| n * k / 8).collect() };
-    if by_cost && whole.radius > 0.0 {
+    let longest = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
+    let mut best = (f64::INFINITY, longest, n / 2);
+    if by_cost && extent.max_element() > 0.0 {
+        let pieces = n.min(CUTS);
+        let at = |k: usize| n * k / pieces;
         for axis in 0..3 {
             sort(order, axis);
-            for &cut in &cuts {
-                let total = cost(&bound(lamps, &order[..cut])) + cost(&bound(lamps, &order[cut..]));
+            // Bounds of what lies between neighbouring cuts, and of all after each.
+            let between: Vec<Bound> =
+                (0..pieces).map(|k| Bound::around(bounds, &order[at(k)..at(k + 1)])).collect();
+            let mut after = between.clone();
+            for k in (0..pieces - 1).rev() {
+                after[k] = after[k].join(after[k + 1]);
+            }
+            let mut before = Bound::NONE;
+            for k in 1..pieces {
+                before = before.join(between[k - 1]);
+                let total = before.cost() + after[k].cost();
                 if total < best.0 {
-                    best = (total, axis, cut);
+                    best = (total, axis, at(k));
                 }
             }
         }
@@ -289,17 +361,10 @@ fn split(lamps: &[Lamp], order: &mut [u32], by_cost: bool) -> usize {
     best.2
 }
 
-fn longest_axis(lamps: &[Lamp], order: &[u32]) -> usize {
-    let positions = || order.iter().map(|&i| lamps[i as usize].position);
-    let extent = positions().reduce(Vec3A::max).unwrap_or_default()
-        - positions().reduce(Vec3A::min).unwrap_or_default();
-    (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lamp::Cone;
+    use crate::lamp::{Cone, Lamp};
     use fog_core::random::PathRng;
     use fog_core::warp;
 
@@ -321,7 +386,7 @@ mod tests {
     #[test]
     fn probabilities_sum_to_one_and_choices_follow_them() {
         for n in [1, 2, 7, 300] {
-            let tree = LampTree::new(lamps(n));
+            let tree = LightTree::new(lamps(n));
             for k in 0..40 {
                 let mut rng = PathRng::new(9, n, k);
                 let point = Vec3A::new(240.0 * (rng.uniform() - 0.5), 5.0, 240.0 * (rng.uniform() - 0.5));
@@ -334,7 +399,7 @@ mod tests {
                     // None may be reached at all; then there is no choice.
                     let lit = |l: &Lamp| l.falloff((point - l.position).normalize()) > 0.0;
                     if matches!(receiver, Receiver::Point(_)) {
-                        for (lamp, &p) in tree.lamps().iter().zip(&all) {
+                        for (lamp, &p) in tree.lights().iter().zip(&all) {
                             assert!(!lit(lamp) || p > 0.0, "a lamp that shines here is never chosen");
                         }
                     } else {
@@ -359,15 +424,15 @@ mod tests {
     fn near_and_strong_lamps_are_preferred() {
         // With all lamps equal and all around, the tree should come near to intensity over squared distance.
         let at = |x: f32, strength| Lamp { position: Vec3A::X * x, intensity: [strength; 3], cone: None };
-        let tree = LampTree::new((0..100).map(|i| at(10.0 * i as f32, 1.0)));
+        let tree = LightTree::new((0..100).map(|i| at(10.0 * i as f32, 1.0)));
         let here = Receiver::Point(Vec3A::new(500.0, 3.0, 0.0));
         // Even odds would be 0.01.
         assert!(tree.probability(50, &here) > 0.1, "{}", tree.probability(50, &here));
         assert!(tree.probability(0, &here) < 0.005, "{}", tree.probability(0, &here));
-        let two = LampTree::new([at(0.0, 3.0), at(2.0, 1.0), at(5.0, 0.0)]);
-        assert_eq!(two.lamps().len(), 2);
+        let two = LightTree::new([at(0.0, 3.0), at(2.0, 1.0), at(5.0, 0.0)]);
+        assert_eq!(two.lights().len(), 2);
         assert!((two.probability(0, &Receiver::Point(Vec3A::X)) - 0.75).abs() < 1e-6);
-        assert!(LampTree::default().choose(&here, 0.5).is_none());
+        assert!(LightTree::<Lamp>::default().choose(&here, 0.5).is_none());
     }
 
     #[test]
