@@ -19,14 +19,14 @@ const LINE_SECONDS: u64 = 10;
 /// Prints name, axes, size and estimates of a plan.
 pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<()> {
     let (mut paths, mut most, mut bytes) = (0u64, 0u64, 0u64);
-    for frame in plan.frames() {
-        let frame = frame.map_err(fogbank::Error::from)?;
-        paths += fogbank::path_count(&frame);
-        most += fogbank::most_paths(&frame);
+    let frames = plan.frames().collect::<Result<Vec<_>, _>>().map_err(fogbank::Error::from)?;
+    for frame in &frames {
+        paths += fogbank::path_count(frame);
+        most += fogbank::most_paths(frame);
         let sensor = &frame.sensor;
         // The rest is a group too.
         let groups = frame.lighting.groups.len() + 1;
-        let outputs = fogbank::output_set(&frame);
+        let outputs = fogbank::output_set(frame);
         bytes += fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, outputs, groups);
     }
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
@@ -34,6 +34,11 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
     for axis in plan.axes() {
         let more = axis.len.is_some_and(|n| n > axis.values.len());
         writeln!(out, "  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" })?;
+    }
+    let passes = fogbank::share_sets(&frames).len();
+    if passes < frames.len() {
+        let word = if passes == 1 { "pass" } else { "passes" };
+        writeln!(out, "  {passes} {word}: frames share paths (render.share)")?;
     }
     let seconds = paths as f64 / (NOMINAL_PATHS_PER_SECOND * threads as f64);
     writeln!(

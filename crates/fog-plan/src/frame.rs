@@ -8,6 +8,7 @@ use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    share::Share,
     sky::{MoonSpec, SkySpec},
 };
 
@@ -351,6 +352,9 @@ pub struct RenderSpec {
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
     pub wavelength_nm: Option<f64>,
+    /// Which other frames of the plan the paths are shared with. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<Share>,
 }
 
 /// When enough of a pixel has been sampled.

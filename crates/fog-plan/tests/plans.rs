@@ -284,13 +284,13 @@ fn skies_are_resolved_and_absent_ones_leave_no_trace() {
     assert_eq!(lighting["moon"]["phase_deg"], 0.0);
     assert!(clear.resolved_yaml().contains("aerosol_optical_depth: 0.1"), "{}", clear.resolved_yaml());
     let cie = with("{sky: {model: cie, cie_type: 3, horizontal_illuminance_lx: 9000}}", &[]);
-    let cie = serde_json::to_value(&cie.frame(0).unwrap().lighting.sky).unwrap();
+    let cie = serde_json::to_value(cie.frame(0).unwrap().lighting.sky).unwrap();
     assert_eq!(cie["horizontal_illuminance_lx"], 9000.0);
     assert_eq!((cie["cie_type"].as_u64(), cie.get("zenith_luminance_cd_m2")), (Some(3), None));
     let day = serde_json::to_value(&with("day", &[]).frame(0).unwrap().lighting).unwrap();
     let keys: Vec<&String> = day.as_object().unwrap().keys().collect();
     assert_eq!(keys, ["preset", "environment", "sun", "scene_emitters"]);
-    let sunny = serde_json::to_value(&with("sunny", &[]).frame(0).unwrap().lighting.sun).unwrap();
+    let sunny = serde_json::to_value(with("sunny", &[]).frame(0).unwrap().lighting.sun).unwrap();
     assert!(sunny.get("color_temperature_k").is_none());
 }
 

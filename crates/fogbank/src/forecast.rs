@@ -31,11 +31,11 @@ impl Forecast {
         if spec.render.stop.is_some() { &mut self.rest.1 } else { &mut self.rest.0 }
     }
 
-    /// A frame begins.
-    pub(crate) fn begin(&mut self, spec: &FrameSpec) {
-        let paths = path_count(spec);
-        *self.rest_of(spec) -= paths;
-        self.first = spec.render.stop.map(|_| paths);
+    /// Frames begin that are rendered together.
+    pub(crate) fn begin(&mut self, set: &[&FrameSpec]) {
+        let paths = set.iter().map(|spec| path_count(spec)).sum();
+        set.iter().for_each(|spec| *self.rest_of(spec) -= path_count(spec));
+        self.first = set.iter().any(|spec| spec.render.stop.is_some()).then_some(paths);
         self.frame = AtomicU64::new(0);
     }
 
@@ -76,13 +76,13 @@ mod tests {
         let frames: Vec<FrameSpec> = plan.frames().map(|f| f.expect("frame")).collect();
         let mut forecast = Forecast::new(&frames.iter().collect::<Vec<_>>());
         assert_eq!(forecast.total(0), 4800);
-        forecast.begin(&frames[0]);
+        forecast.begin(&[&frames[0]]);
         forecast.count(1600);
         // Four times the first samples in this frame, and in the two others as well.
         assert_eq!(forecast.total(4800), 3 * 6400);
         forecast.count(4800);
         forecast.end();
-        forecast.begin(&frames[1]);
+        forecast.begin(&[&frames[1]]);
         forecast.count(1600);
         // Half of that in the second: three times in the mean.
         assert_eq!(forecast.total(1600), 6400 + 3200 + 4800);

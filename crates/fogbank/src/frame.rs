@@ -76,20 +76,37 @@ pub fn render_frame(
     progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Result<Rendered, Error> {
     let (scene, fog) = scene(spec, resources)?;
-    let denoiser = resources.denoiser(spec)?;
+    // Before any work.
+    resources.denoiser(spec)?;
     let camera = camera(&spec.camera, &spec.sensor);
     let settings = settings(spec);
     let frame =
         fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
             .ok_or(Error::Cancelled)?;
-    let mut record = record(spec, fog.as_ref(), &scene, &camera, &frame, config_digest);
+    finish(spec, resources, (&scene, fog.as_ref()), frame, config_digest)
+}
+
+/// A frame with its record and, if asked for, its denoised picture.
+///
+/// # Errors
+/// If it cannot be denoised.
+pub(crate) fn finish(
+    spec: &FrameSpec,
+    resources: &Resources,
+    (scene, fog): (&Scene, Option<&Fog>),
+    frame: Frame,
+    config_digest: &str,
+) -> Result<Rendered, Error> {
+    let camera = camera(&spec.camera, &spec.sensor);
+    let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
     if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
+    let denoiser = resources.denoiser(spec)?;
     let denoised =
-        denoiser.map(|denoiser| denoise::denoised(&scene, &camera, &frame, denoiser)).transpose()?;
+        denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
     Ok(Rendered { frame, record, camera, denoised })
 }

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::frame::{camera, scene, settings};
 use crate::progress::Progress;
 use crate::resources::Resources;
+use crate::shared::share_sets;
 use crate::sweep::Selection;
 use fog_core::spectrum::Spectrum;
 use fog_plan::{FrameSpec, Plan};
@@ -51,6 +52,11 @@ pub fn replay(
     if number >= u64::from(count) {
         let range = format!("its pixels have {count} at most, counted from 0");
         return Err(Error::UnknownPath(format!("the frame has no sample {number}: {range}")));
+    }
+    if share_sets(&frames).iter().any(|set| set.len() > 1 && set.contains(&index)) {
+        let text =
+            format!("frame {} shares its paths with others (render.share): they cannot be replayed", spec.id);
+        return Err(Error::UnknownPath(text));
     }
     resources.prepare(&spec, progress);
     let (scene, _) = scene(&spec, resources)?;

@@ -6,6 +6,7 @@ use crate::frame::{Rendered, render_frame};
 use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
+use crate::shared::{render_set, share_sets};
 use crate::{CODE_DIGEST, changed_files, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
 use fog_plan::{FrameSpec, Plan};
@@ -65,7 +66,12 @@ pub fn sweep(
     // 1. The frames, and what they need.
     let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
     let selected = selection.indices(&frames)?;
-    for &i in &selected {
+    let mut wanted = vec![false; frames.len()];
+    selected.iter().for_each(|&i| wanted[i] = true);
+    // A frame takes its whole set to be rendered.
+    let sets: Vec<Vec<usize>> =
+        share_sets(&frames).into_iter().filter(|set| set.iter().any(|&i| wanted[i])).collect();
+    for &i in sets.iter().flatten() {
         resources.prepare(&frames[i], progress);
     }
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
@@ -89,20 +95,23 @@ pub fn sweep(
     // 2. The data set: new, or the same one begun earlier.
     let data_set = open(plan, &frames, dir)?;
     changed_files::refuse(&data_set, &frames, resources)?;
-    let todo: Vec<&FrameSpec> =
-        selected.iter().map(|&i| &frames[i]).filter(|f| !data_set.is_done(&f.id)).collect();
-    let paths = todo.iter().map(|f| path_count(f)).sum();
-    progress.event(Event::Ready { done: selected.len() - todo.len(), paths, todo: todo.len() });
+    selected.iter().filter(|&&i| data_set.is_done(&frames[i].id)).for_each(|&i| wanted[i] = false);
+    let todo: Vec<&Vec<usize>> = sets.iter().filter(|set| set.iter().any(|&i| wanted[i])).collect();
+    let traced: Vec<&FrameSpec> = todo.iter().flat_map(|set| set.iter()).map(|&i| &frames[i]).collect();
+    let (paths, count) = (traced.iter().map(|f| path_count(f)).sum(), wanted.iter().filter(|w| **w).count());
+    progress.event(Event::Ready { done: selected.len() - count, paths, todo: count });
 
-    // 3. Each missing frame: render, store, or record why not.
+    // 3. Each missing frame, with those that share its paths: render, store, or record why not.
     let config_digest = plan.config_digest();
-    let mut forecast = Forecast::new(&todo);
-    for spec in todo {
-        if !progress.event(Event::FrameStarted { id: &spec.id }) {
+    let mut forecast = Forecast::new(&traced);
+    for set in todo {
+        let specs: Vec<&FrameSpec> = set.iter().map(|&i| &frames[i]).collect();
+        let first = set.iter().position(|&i| wanted[i]).unwrap_or(0);
+        if !progress.event(Event::FrameStarted { id: &specs[first].id }) {
             return Err(Error::Cancelled);
         }
         let started = Instant::now();
-        forecast.begin(spec);
+        forecast.begin(&specs);
         let on_work = |work: Work| match work {
             Work::Traced(n) => {
                 forecast.count(n);
@@ -110,21 +119,39 @@ pub fn sweep(
             }
             Work::Left(n) => progress.event(Event::Expected(forecast.total(n))),
         };
-        let rendered = guarded(|| render_frame(spec, resources, &config_digest, &on_work));
+        let rendered = guarded(|| match specs[..] {
+            [spec] => render_frame(spec, resources, &config_digest, &on_work).map(|frame| vec![Ok(frame)]),
+            _ => render_set(&specs, resources, &config_digest, &on_work),
+        });
         forecast.end();
-        let stored =
-            rendered.and_then(|r| store(&data_set, spec, &r, started).map(|()| r.frame.noise_estimate()));
-        match stored {
-            Ok(noise) => {
-                let seconds = started.elapsed().as_secs_f64();
-                progress.event(Event::FrameDone { id: &spec.id, seconds, noise });
-            }
+        let mut rendered = match rendered {
             Err(Error::Cancelled) => return Err(Error::Cancelled),
-            Err(e) => {
-                let reason = e.to_string();
-                progress.event(Event::FrameFailed { id: &spec.id, reason: &reason, paths: path_count(spec) });
-                // If even this cannot be written, the folder is of no use any more.
-                data_set.record_failure(&spec.id, &reason)?;
+            Ok(frames) => frames.into_iter().map(|frame| frame.map_err(|e| e.to_string())).collect(),
+            Err(e) => vec![Err(e.to_string()); specs.len()],
+        };
+        // What the set took, by frame.
+        let seconds = started.elapsed().as_secs_f64() / specs.len() as f64;
+        for ((spec, &i), rendered) in specs.iter().zip(set).zip(rendered.drain(..)) {
+            if !wanted[i] {
+                continue;
+            }
+            let begun = Instant::now();
+            let stored = rendered.and_then(|r| {
+                let seconds = seconds + begun.elapsed().as_secs_f64();
+                let stored = store(&data_set, spec, &r, seconds).map_err(|e| e.to_string());
+                stored.map(|()| r.frame.noise_estimate())
+            });
+            match stored {
+                Ok(noise) => {
+                    let seconds = seconds + begun.elapsed().as_secs_f64();
+                    progress.event(Event::FrameDone { id: &spec.id, seconds, noise });
+                }
+                Err(reason) => {
+                    let paths = path_count(spec);
+                    progress.event(Event::FrameFailed { id: &spec.id, reason: &reason, paths });
+                    // If even this cannot be written, the folder is of no use any more.
+                    data_set.record_failure(&spec.id, &reason)?;
+                }
             }
         }
     }
@@ -238,7 +265,7 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error>
     Ok(DataSet::create_or_open(dir, info, &differ)?)
 }
 
-fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, started: Instant) -> Result<(), Error> {
+fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64) -> Result<(), Error> {
     let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
     let attributes = BTreeMap::from([
         ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
@@ -251,7 +278,7 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, started: Ins
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
         exposure: spec.sensor.exposure as f32,
-        seconds: started.elapsed().as_secs_f64(),
+        seconds,
         attributes: &attributes,
     })?;
     Ok(())

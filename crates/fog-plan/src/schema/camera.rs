@@ -84,11 +84,32 @@ pub(crate) struct RenderFile {
     #[schemars(range(min = ranges::WAVELENGTH_NM.min, max = ranges::WAVELENGTH_NM.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) wavelength_nm: Option<f64>,
+    /// Traces frames together that are alike but for this. Absent: each frame alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) share: Option<ShareFile>,
+}
+
+/// What frames that share paths may differ in.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Share")]
+pub(crate) enum ShareFile {
+    /// The intensities of their light groups: costs nothing.
+    Lights,
+    /// Those, and the fog, up to eight: pays where fogs differ little and are thin.
+    Fog,
 }
 
 impl Default for RenderFile {
     fn default() -> Self {
-        Self { samples: 64, noise: None, max_samples: None, max_depth: None, wavelength_nm: None }
+        Self {
+            samples: 64,
+            noise: None,
+            max_samples: None,
+            max_depth: None,
+            wavelength_nm: None,
+            share: None,
+        }
     }
 }
 

@@ -15,7 +15,7 @@ mod sweep;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile};
+pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile, ShareFile};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{

@@ -4,7 +4,8 @@ use super::Check;
 use crate::{
     frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec, StopSpec},
     ranges,
-    schema::{CameraFile, OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile},
+    schema::{CameraFile, OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile, ShareFile},
+    share::Share,
 };
 
 /// `render.max_samples` where it is not given.
@@ -66,7 +67,17 @@ impl Check<'_> {
         };
         let wavelength = self.optional("render.wavelength_nm", render.wavelength_nm, ranges::WAVELENGTH_NM);
         let stop = self.stop(render, samples);
-        Some(RenderSpec { samples: samples?, stop: stop?, max_depth: depth?, wavelength_nm: wavelength? })
+        let share = render.share.map(|share| match share {
+            ShareFile::Lights => Share::Lights,
+            ShareFile::Fog => Share::Fog,
+        });
+        Some(RenderSpec {
+            samples: samples?,
+            stop: stop?,
+            max_depth: depth?,
+            wavelength_nm: wavelength?,
+            share,
+        })
     }
 
     /// Until when pixels are sampled; the outer option is the check's success.

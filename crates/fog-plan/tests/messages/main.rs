@@ -332,6 +332,17 @@ fn droplets() {
 }
 
 #[test]
+fn what_is_shared() {
+    let head = HEAD.replace("samples: 4", "samples: 4, share: fogs");
+    assert_eq!(
+        errors_with(&format!("{head}fog: none\n"), &[]),
+        [
+            "configs/x.yaml:5:29: render.share: unknown value \"fogs\"; expected one of lights, fog; did you mean `fog`?"
+        ]
+    );
+}
+
+#[test]
 fn yaml_mistakes() {
     assert_eq!(
         errors("fog: none\ncamera: {pitch_deg: 1, pitch_deg: 2}\n"),
