@@ -67,7 +67,7 @@ pub(crate) fn render_set(
     let members: Vec<usize> = (0..set.len()).filter(|&i| made[i].is_ok()).collect();
     let can_share = |i: &usize| {
         made[*i].as_ref().is_ok_and(|(scene, _)| {
-            scene.lamps().lamps().is_empty() && scene.medium.as_ref().is_none_or(Medium::can_share)
+            scene.lamps().lights().is_empty() && scene.medium.as_ref().is_none_or(Medium::can_share)
         })
     };
     let mut passes: Vec<Vec<usize>> = Vec::new();
