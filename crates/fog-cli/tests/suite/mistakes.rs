@@ -174,7 +174,7 @@ fn wrong_arguments() {
         (vec!["sweep", "c.yaml"], "--out"),
         (vec!["sweep", "c.yaml", "--out", "out", "--threads", "0"], "0 is not in 1..=1024"),
         (vec!["swep", "c.yaml"], "'sweep'"),
-        (vec!["scene", "moon"], "street"),
+        (vec!["scene", "stret"], "'street'"),
     ] {
         let run = run(&args, dir.path());
         assert_eq!(run.code, Some(2), "{args:?}");

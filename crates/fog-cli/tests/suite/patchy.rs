@@ -32,7 +32,7 @@ fn seeds_of_patches_are_frames_and_paths_are_told() {
         let (tau, transmittance) = (truth["tau.Y"].values[i], truth["transmittance.G"].values[i]);
         assert!((transmittance - fog_core::math::f32::exp(-tau)).abs() < 1e-5, "pixel {i}");
         let sum = hdr["direct.G"].values[i] + hdr["airlight.G"].values[i];
-        assert!((hdr["G"].values[i] - sum).abs() <= 1e-6 * sum, "pixel {i}");
+        assert!((hdr["G"].values[i] - sum).abs() <= 1e-6 * sum.abs(), "pixel {i}");
     }
 
     let path =

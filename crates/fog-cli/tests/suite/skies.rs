@@ -17,7 +17,8 @@ fn make_image(dir: &Path) {
                 "fog: none",
                 "fog: {model: homogeneous, height_m: 50, sigma_t_1_m: 0.02, phase: {hg: 0.6}}",
             )
-            .replace("width_px: 24, height_px: 14", "width_px: 48, height_px: 24");
+            .replace("width_px: 24, height_px: 14", "width_px: 48, height_px: 24")
+            .replace("samples: 3", "samples: 64");
     write(dir, "c.yaml", text);
     sweep(dir, "first").ok();
     let id = ids(dir)[0].clone();
