@@ -6,6 +6,7 @@ mod emitters;
 mod furnace;
 mod golden;
 mod lamps;
+mod layer_light;
 mod layers;
 mod light_groups;
 mod materials;

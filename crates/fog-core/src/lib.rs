@@ -8,6 +8,7 @@
 
 pub mod bands;
 pub mod colour;
+pub mod daylight;
 pub mod delta_e;
 pub mod diameter_choice;
 pub mod distribution_2d;

@@ -45,6 +45,7 @@ pub struct ExtinctionProfile {
     nodes: Vec<Node>,
     /// σ_a, by the same segments; `None` where nothing absorbs.
     absorption: Option<Separable>,
+    least_albedo: f64,
     /// Segment at the start of each cell of an even grid over the layer: finds a segment without a search.
     by_altitude: Vec<u32>,
     cells_per_m: f64,
@@ -181,11 +182,18 @@ impl ExtinctionProfile {
             extinction,
             nodes,
             absorption,
+            least_albedo: albedo.iter().fold(1.0, |a, &b| a.min(b)),
             by_altitude,
             cells_per_m: count as f64 / height,
             by_depth,
             altitude_m,
         })
+    }
+
+    /// Least single-scattering albedo of the rows.
+    #[must_use]
+    pub fn least_albedo(&self) -> f64 {
+        self.least_albedo
     }
 
     /// World y of altitude 0.

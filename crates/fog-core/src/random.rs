@@ -12,14 +12,16 @@ pub fn mix64(mut x: u64) -> u64 {
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Random stream of one path: the first four dimensions are a scrambled low-discrepancy point (pixel x, pixel y,
-/// wavelength, first free flight), all later ones the SplitMix64 sequence of the path's key.
+/// Random stream of one path: the first seven dimensions are scrambled low-discrepancy points (pixel x, pixel y, wavelength,
+/// first free flight; first turn, second free flight), all later ones the SplitMix64 sequence of the path's key.
 #[derive(Clone, Debug)]
 pub struct PathRng {
     state: u64,
+    turn: Option<[f32; 2]>,
+    flight: Option<f32>,
 }
 
-/// The first four dimensions of a path, stratified over the samples of a pixel.
+/// The first dimensions of a path, stratified over the samples of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Stratified {
     /// Position inside the pixel, in [0, 1)².
@@ -28,6 +30,10 @@ pub struct Stratified {
     pub wavelength: f32,
     /// Selects the optical depth of the first free flight.
     pub flight: f32,
+    /// Selects the first turn: see [`PathRng::turn`].
+    pub turn: [f32; 2],
+    /// Selects the optical depth of the second free flight.
+    pub second_flight: f32,
 }
 
 impl PathRng {
@@ -35,7 +41,28 @@ impl PathRng {
     #[must_use]
     pub fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         let pixel_key = mix64(seed ^ mix64(pixel.wrapping_mul(GOLDEN).wrapping_add(1)));
-        Self { state: mix64(pixel_key.wrapping_add(sample.wrapping_mul(GOLDEN))) }
+        Self { state: mix64(pixel_key.wrapping_add(sample.wrapping_mul(GOLDEN))), turn: None, flight: None }
+    }
+
+    /// The same stream whose first turn and next flight are given.
+    #[must_use]
+    pub fn with_first(self, turn: [f32; 2], flight: f32) -> Self {
+        Self { turn: Some(turn), flight: Some(flight), ..self }
+    }
+
+    /// Two numbers, uniform in [0, 1), for a turn: of the polar angle, and of the azimuth or what stands for it.
+    #[inline]
+    pub fn turn(&mut self) -> (f64, f32) {
+        match self.turn.take() {
+            Some([u, v]) => (f64::from(u), v),
+            None => (self.uniform_f64(), self.uniform()),
+        }
+    }
+
+    /// A number, uniform in [0, 1), for the optical depth of a free flight after a turn.
+    #[inline]
+    pub fn flight(&mut self) -> f64 {
+        self.flight.take().map_or_else(|| self.uniform_f64(), f64::from)
     }
 
     /// Next number, uniform in [0, 1) with 24 bits.
@@ -72,8 +99,10 @@ impl PathRng {
 pub fn stratified(seed: u64, pixel: u64, sample: u64) -> Stratified {
     let key =
         mix64(mix64(seed ^ mix64(pixel.wrapping_mul(GOLDEN).wrapping_add(2))).wrapping_add(sample >> 16));
-    let [x, y, wavelength, flight] = sobol_burley::sample_4d((sample & 0xffff) as u32, 0, key as u32);
-    Stratified { pixel: [x, y], wavelength, flight }
+    let index = (sample & 0xffff) as u32;
+    let [x, y, wavelength, flight] = sobol_burley::sample_4d(index, 0, key as u32);
+    let [u, v, second_flight, _] = sobol_burley::sample_4d(index, 1, key as u32);
+    Stratified { pixel: [x, y], wavelength, flight, turn: [u, v], second_flight }
 }
 
 #[cfg(test)]
@@ -106,10 +135,22 @@ mod tests {
     #[test]
     fn stratified_dimensions_fill_evenly() {
         // Each of 64 strata of the wavelength gets exactly one of 64 samples.
-        let mut seen = [false; 64];
+        let mut seen = [[false; 64]; 3];
         for s in 0..64 {
-            seen[(stratified(3, 11, s).wavelength * 64.0) as usize] = true;
+            let first = stratified(3, 11, s);
+            for (seen, x) in seen.iter_mut().zip([first.wavelength, first.turn[0], first.second_flight]) {
+                seen[(x * 64.0) as usize] = true;
+            }
         }
-        assert!(seen.iter().all(|&s| s));
+        assert!(seen.as_flattened().iter().all(|&s| s));
+    }
+
+    #[test]
+    fn given_numbers_come_first_and_once() {
+        let plain = PathRng::new(1, 2, 3);
+        let mut given = plain.clone().with_first([0.25, 0.5], 0.75);
+        assert_eq!((given.turn(), given.flight()), ((0.25, 0.5), 0.75));
+        let mut plain = plain;
+        assert_eq!((given.turn(), given.flight()), (plain.turn(), plain.flight()));
     }
 }

@@ -7,8 +7,9 @@ use crate::{
     node::{Entry, Node, Value},
     origin::Origin,
     schema::{
-        CameraFile, DEFAULT_SEED, FogFile, LightingFile, LightingMap, Outputs, PatchinessFile, RenderFile,
-        SensorFile, SunFile, SweepFile, VerticalFile,
+        AEROSOL_OPTICAL_DEPTH, CameraFile, DEFAULT_SEED, FogFile, GROUND_ALBEDO, LightingFile, LightingMap,
+        NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
+        VerticalFile,
     },
     validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
@@ -45,6 +46,19 @@ pub(crate) fn fill_model(root: &mut Node) {
         }
         _ => {}
     }
+}
+
+/// Fills in the keys of a clear sky. Not when an axis changes the model.
+pub(crate) fn fill_sky(root: &mut Node) {
+    let Some(lighting) = root.child_mut("lighting") else { return };
+    let Some(sky) = lighting.child_mut("sky") else { return };
+    let Some(Value::Text(model)) = sky.child("model").map(|node| node.value.clone()) else { return };
+    if model == "clear" {
+        put(sky, "aerosol_optical_depth", &AEROSOL_OPTICAL_DEPTH);
+        put(sky, "ozone_du", &OZONE_DU);
+        put(sky, "night_luminance_cd_m2", &NIGHT_LUMINANCE_CD_M2);
+    }
+    put(sky, "ground_albedo", &GROUND_ALBEDO);
 }
 
 fn fill_fog(fog: &mut Node) {

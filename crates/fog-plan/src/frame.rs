@@ -9,6 +9,7 @@ use crate::{
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
     share::Share,
+    sky::{MoonSpec, SkySpec},
 };
 
 /// A frame of the plan. Serialises to JSON whose keys carry the units.
@@ -269,11 +270,17 @@ pub struct LightingSpec {
     pub preset: Option<&'static str>,
     /// Light of the surroundings.
     pub environment: Option<EnvironmentSpec>,
+    /// A sky with structure; then there is no environment. Left out of records where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sky: Option<SkySpec>,
     /// The sun.
     pub sun: Option<SunSpec>,
+    /// The moon; only with a clear sky. Left out of records where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moon: Option<MoonSpec>,
     /// Whether the scene file's emitting surfaces and lights shine.
     pub scene_emitters: bool,
-    /// Luminance in cd/m² that the radiance 1 stands for in the scene file; left out of records where it is 1.
+    /// Luminance in cd/m² that the radiance 1 stands for in the scene file and the sky; left out of records where it is 1.
     #[serde(skip_serializing_if = "is_one")]
     pub luminance_of_one_cd_m2: f64,
     /// Groups of lights whose light is told apart; left out of records where there are none.
@@ -321,8 +328,12 @@ pub struct SunSpec {
     pub elevation_deg: f64,
     /// Direction towards the sun as a heading, in degrees.
     pub azimuth_deg: f64,
-    /// Irradiance on a plane normal to the beam; spectrum as the radiance of [`EnvironmentSpec::Uniform`].
-    pub irradiance: f64,
+    /// Irradiance on a plane normal to the beam; spectrum as the radiance of [`EnvironmentSpec::Uniform`] unless it has a colour
+    /// temperature. Absent with a clear sky, and only then: the air says what is left of the sun's light.
+    pub irradiance: Option<f64>,
+    /// Correlated colour temperature of daylight in K, 4000 to 25 000. Left out of records where absent: that of D65.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color_temperature_k: Option<f64>,
     /// Angular diameter in degrees, 0 (parallel beam) to 10.
     pub angular_diameter_deg: f64,
     /// Wavelength in nanometres that `irradiance` is meant at; then equal to the frame's `render.wavelength_nm`.

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use crate::{
     error::{PlanError, Problem, Problems},
-    fill::{fill_model, fill_sections},
+    fill::{fill_model, fill_sections, fill_sky},
     node::{Node, Value},
     origin::Origin,
     plan::Plan,
@@ -83,10 +83,15 @@ pub fn parse(text: &str, file_name: &str, sets: &[String]) -> Result<Plan, PlanE
         return Err(PlanError::Invalid(problems.into_vec()));
     }
     let sweep = sweep.flatten();
-    let changes_model =
-        |sweep: &Sweep| sweep.axes.iter().flat_map(|axis| &axis.paths).any(|path| path == "fog.model");
-    if !sweep.as_ref().is_some_and(changes_model) {
+    let changes = |key: &str| {
+        let mut axes = sweep.iter().flat_map(|sweep| &sweep.axes).flat_map(|axis| &axis.paths);
+        axes.any(|path| path == key)
+    };
+    if !changes("fog.model") {
         fill_model(&mut tree);
+    }
+    if !changes("lighting.sky.model") {
+        fill_sky(&mut tree);
     }
     tree.sort_sections();
     let plan = Plan::new(file.name.unwrap_or_default(), file.seed.unwrap_or(DEFAULT_SEED), tree, sweep);

@@ -58,9 +58,10 @@ fn approach_descends_on_the_glide_path() {
     for frame in &frames {
         let [_, y, z] = frame.camera.position_m;
         assert_eq!(y, frame.camera.altitude_m);
-        assert!((y / z - 0.052_407_8).abs() < 2e-5, "3 degrees");
+        // The aiming point is 311 m beyond the threshold, where z is 0.
+        assert!((y / (z + 311.0) - 0.052_407_8).abs() < 2e-5, "3 degrees");
     }
-    assert_eq!((frames[0].camera.position_m[2], frames[11].camera.position_m[2]), (3000.0, 30.0));
+    assert_eq!((frames[0].camera.position_m[2], frames[11].camera.position_m[2]), (2689.0, -281.0));
 }
 
 #[test]
@@ -262,6 +263,35 @@ fn model_files_are_kept_as_written_and_absent_ones_leave_no_trace() {
     let shipped = plan("").frame(0).unwrap();
     assert_eq!((&axis[0].digest, axis[0].seed), (&shipped.digest, shipped.seed));
     assert!(axis[1].digest != shipped.digest && axis[1].pair_id == shipped.pair_id);
+}
+
+#[test]
+fn skies_are_resolved_and_absent_ones_leave_no_trace() {
+    let with = |lighting: &str, sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
+        let text = format!("version: 1\nname: t\nscene: none\nfog: none\nlighting: {lighting}\n");
+        fog_plan::parse(&text, "t.yaml", &sets).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let clear = with(
+        "{sky: {model: clear}, sun: {elevation_deg: -4, azimuth_deg: 9}, moon: {elevation_deg: 5, azimuth_deg: 1}}",
+        &["lighting.sky.ozone_du=350"],
+    );
+    let lighting = serde_json::to_value(&clear.frame(0).unwrap().lighting).unwrap();
+    let sky = serde_json::json!({"model": "clear", "aerosol_optical_depth": 0.1, "ozone_du": 350.0,
+        "night_luminance_cd_m2": 1.7e-4, "ground_albedo": 0.2});
+    assert_eq!(lighting["sky"], sky);
+    assert_eq!(lighting["sun"]["irradiance"], serde_json::Value::Null);
+    assert_eq!(lighting["moon"]["phase_deg"], 0.0);
+    assert!(clear.resolved_yaml().contains("aerosol_optical_depth: 0.1"), "{}", clear.resolved_yaml());
+    let cie = with("{sky: {model: cie, cie_type: 3, horizontal_illuminance_lx: 9000}}", &[]);
+    let cie = serde_json::to_value(cie.frame(0).unwrap().lighting.sky).unwrap();
+    assert_eq!(cie["horizontal_illuminance_lx"], 9000.0);
+    assert_eq!((cie["cie_type"].as_u64(), cie.get("zenith_luminance_cd_m2")), (Some(3), None));
+    let day = serde_json::to_value(&with("day", &[]).frame(0).unwrap().lighting).unwrap();
+    let keys: Vec<&String> = day.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["preset", "environment", "sun", "scene_emitters"]);
+    let sunny = serde_json::to_value(with("sunny", &[]).frame(0).unwrap().lighting.sun).unwrap();
+    assert!(sunny.get("color_temperature_k").is_none());
 }
 
 #[test]

@@ -80,6 +80,41 @@ pub struct Scatterer {
     pub probability_ratio: Spectrum,
 }
 
+/// Mean cosines of a phase function by relative altitude and wavelength, linear in both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanCosines {
+    zeta: Vec<f64>,
+    nm: Vec<f64>,
+    g: Vec<f64>,
+}
+
+impl MeanCosines {
+    /// Wavelengths between which the mean cosine is linear, in nm, ascending.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.nm
+    }
+
+    /// Mean cosine of a scattering at relative altitude `zeta`, clamped to the table.
+    #[must_use]
+    pub fn at(&self, zeta: f64, nm: f64) -> f64 {
+        let ((z0, z1, tz), (l0, l1, tl)) = (between(&self.zeta, zeta), between(&self.nm, nm));
+        let g = |z: usize, l: usize| self.g[z * self.nm.len() + l];
+        let row = |z: usize| g(z, l0) + (g(z, l1) - g(z, l0)) * tl;
+        row(z0) + (row(z1) - row(z0)) * tz
+    }
+}
+
+/// Neighbours of `at` on an ascending axis, and the weight of the upper one, clamped to [0, 1].
+fn between(axis: &[f64], at: f64) -> (usize, usize, f64) {
+    if axis.len() == 1 {
+        return (0, 0, 0.0);
+    }
+    let upper = axis.partition_point(|&x| x <= at).clamp(1, axis.len() - 1);
+    let (a, b) = (axis[upper - 1], axis[upper]);
+    (upper - 1, upper, ((at - a) / (b - a)).clamp(0.0, 1.0))
+}
+
 /// Rows of a table between which a scattering draws its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhaseRows {
@@ -111,6 +146,26 @@ impl Phase {
 }
 
 impl PhaseView<'_> {
+    /// Mean cosines by altitude and wavelength; `None` where single droplets scatter.
+    #[must_use]
+    pub fn mean_cosines(&self) -> Option<MeanCosines> {
+        let same = |g: f64| MeanCosines { zeta: vec![0.0], nm: vec![550.0], g: vec![g] };
+        match self {
+            Self::HenyeyGreenstein(hg) => Some(same(hg.mean_cosine())),
+            Self::HgDraine(mixture) => Some(same(mixture.mean_cosine())),
+            Self::Table { view, nodes } => {
+                let cell = |row: usize, column: usize| {
+                    let p = |i: usize| f64::from(view.phase_node(row, column, i));
+                    phase_grid::mean_cosine(&nodes.double, p) / phase_grid::integral(&nodes.double, p)
+                };
+                let (rows, columns) = (view.zeta.len(), view.wavelengths_nm.len());
+                let g = (0..rows * columns).map(|k| cell(k / columns, k % columns)).collect();
+                Some(MeanCosines { zeta: view.zeta.to_vec(), nm: view.wavelengths_nm.to_vec(), g })
+            }
+            Self::Droplets { .. } => None,
+        }
+    }
+
     /// Wavelengths of the table, in nm; one where nothing depends on the wavelength.
     fn wavelengths_nm(&self) -> &[f64] {
         match self {

@@ -76,6 +76,7 @@ struct Image {
     density: Vec<f32>,
     /// Mean over the sphere of the mean over the wavelengths.
     mean: f32,
+    evenness: f32,
 }
 
 #[derive(Debug)]
@@ -161,7 +162,23 @@ impl SkyMap {
         let density = (0..weights.len())
             .map(|i| (cells.probability([i / columns, i % columns]) / solid_angles[i]) as f32)
             .collect();
-        let image = Image { width, height, texels, split, cells, block, columns, density, mean: mean as f32 };
+        // 1 / (4π ∫ p² dω) of the density p.
+        let squares: f64 = (0..weights.len())
+            .map(|i| cells.probability([i / columns, i % columns]).powi(2) / solid_angles[i])
+            .sum();
+        let evenness = (1.0 / (2.0 * math::TAU * squares)) as f32;
+        let image = Image {
+            width,
+            height,
+            texels,
+            split,
+            cells,
+            block,
+            columns,
+            density,
+            mean: mean as f32,
+            evenness,
+        };
         Ok(Self { image: Arc::new(image), turn: 0.0, scale: 1.0 })
     }
 
@@ -181,6 +198,13 @@ impl SkyMap {
     #[must_use]
     pub fn mean(&self) -> f32 {
         self.image.mean * self.scale
+    }
+
+    /// Share of the sphere that the light comes from, as it were: the square of the mean radiance over the mean of its square.
+    /// 1 if it is the same everywhere, near 0 if most comes from a sun.
+    #[must_use]
+    pub fn evenness(&self) -> f32 {
+        self.image.evenness
     }
 
     /// Size of the image in texels: columns and rows.
@@ -368,5 +392,7 @@ mod tests {
             assert!((map.radiance(d, lanes)[0] - want).abs() < 1e-6, "{y}");
         }
         assert!((map.mean() - 0.625).abs() < 1e-6);
+        // (5/8)² over the mean of 1 and 1/16.
+        assert!((map.evenness() - 0.625 * 0.625 / (0.5 * 1.0625)).abs() < 1e-4, "{}", map.evenness());
     }
 }

@@ -7,6 +7,7 @@ mod analog;
 mod equiangular;
 pub mod features;
 mod groups;
+mod layer_light;
 mod lights;
 mod lobe;
 pub mod path;

@@ -1,6 +1,6 @@
 //! Choosing a light for next-event estimation.
 //!
-//! The sky is among them where it has structure. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
+//! A sky is among them where its light is concentrated. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
 //! direction from the phase function or the BSDF, and that is what continuing the path does.
 
 use crate::path::Lanes;
@@ -14,6 +14,10 @@ use fog_scene::light_groups::LightSource;
 use fog_scene::light_tree::Receiver;
 use fog_scene::scene::Scene;
 
+/// Evenness of a sky ([`fog_scene::sky_map::SkyMap::evenness`]) from which on it is not aimed at, as the uniform environment
+/// is not. Skies of clear air and overcast ones are more even than that: in the street under them, aiming at them with a share
+/// of 0.3 takes 1.2 to 1.6 times as long, in fog and in clear air, and is no less noisy.
+const EVEN_SKY: f32 = 0.2;
 /// Distance at which the strongest lamp says what light of lamps is faint, in metres.
 const LAMP_LEVEL_M: f32 = 100.0;
 
@@ -58,7 +62,8 @@ impl LightSample {
 
 impl LightMix {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let (sun, sky) = (scene.sun.is_some(), scene.sky.is_some());
+        let uneven = scene.sky.as_ref().map_or(0.0, |sky| (1.0 - sky.evenness() / EVEN_SKY).max(0.0));
+        let (sun, sky) = (scene.sun.is_some(), uneven > 0.0);
         let [compact, broad] = [Breadth::Compact, Breadth::Broad].map(|b| scene.emitters().has(b));
         let (lamps, beams) = (!scene.lamps().lights().is_empty(), !scene.beams().is_empty());
         let kinds = [sun, sky, compact, broad, lamps, beams].map(|there| if there { 1.0 } else { 0.0 });
@@ -74,7 +79,7 @@ impl LightMix {
         let level = sun_level.max(sky_level).max(emitter_level).max(lamp_level).max(beam_level);
         Self {
             sun: if sun { share } else { 0.0 },
-            sky: if sky { share } else { 0.0 },
+            sky: share * uneven,
             compact: if compact { share } else { 0.0 },
             broad: if broad { share } else { 0.0 },
             lamps: if lamps { share } else { 0.0 },

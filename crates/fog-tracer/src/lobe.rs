@@ -82,9 +82,9 @@ impl<'a> FogLobe<'a> {
     pub(crate) fn sample(&self, rng: &mut PathRng) -> (Vec3A, LobeValue) {
         let towards_sun = self.sun_share > 0.0 && rng.uniform() < self.sun_share;
         let axis = if towards_sun { self.sun } else { self.before };
-        let m =
-            self.phase.sample(self.scatterer.row, &self.scatterer.lanes, rng.uniform_f64(), rng.uniform());
-        let (sin_phi, cos_phi) = math::sin_cos_turns(rng.uniform());
+        let (u, turn) = rng.turn();
+        let m = self.phase.sample(self.scatterer.row, &self.scatterer.lanes, u, rng.uniform());
+        let (sin_phi, cos_phi) = math::sin_cos_turns(turn);
         let sin = (m * (2.0 - m)).max(0.0).sqrt();
         let local = Vec3A::new(sin * cos_phi, sin * sin_phi, 1.0 - m);
         let after = (warp::frame(axis) * local).normalize();

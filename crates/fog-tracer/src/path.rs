@@ -10,9 +10,11 @@
 
 mod connect;
 mod glow;
+mod layer;
 mod patchy;
 
 use self::glow::Flight;
+use crate::layer_light::{LayerLanes, LayerLight};
 use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
@@ -36,10 +38,15 @@ use fog_scene::sky_map::SkyLanes;
 const ROULETTE_DEPTH: u32 = 3;
 /// Smallest probability of survival: bounds the weight of survivors.
 const ROULETTE_MIN: f32 = 0.5;
+/// The same where the layer tells what a path is worth.
+const ROULETTE_MIN_KNOWN: f32 = 0.3;
 /// Throughput below which roulette is played where every path ends in an environment: faint paths still tell much.
 const ROULETTE_BELOW_SKY: f32 = 0.3;
 /// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
 const ROULETTE_BELOW: f32 = 1.0;
+
+/// Largest f32 below 1.
+const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
 
 /// A scene prepared for tracing paths.
 #[derive(Debug)]
@@ -52,6 +59,7 @@ pub struct PathTracer<'a> {
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
     pub(crate) roulette_below: f32,
+    layer_light: Option<LayerLight>,
 }
 
 /// What one path saw.
@@ -67,12 +75,12 @@ pub struct PathRadiance {
 }
 
 /// State of a path between two events.
-struct Path {
-    origin: Vec3A,
+pub(crate) struct Path {
+    pub(crate) origin: Vec3A,
     /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
     vertex: Vec3A,
-    direction: Vec3A,
-    beta: Spectrum,
+    pub(crate) direction: Vec3A,
+    pub(crate) beta: Spectrum,
     r_u: Spectrum,
     r_l: Spectrum,
     /// Scatterings so far.
@@ -88,6 +96,8 @@ pub(crate) struct Lanes {
     /// Colour of the sun.
     pub(crate) sun: Spectrum,
     pub(crate) medium: Option<MediumLanes>,
+    /// In the layer's own light; `None` where paths do not use it.
+    layer: Option<LayerLanes>,
 }
 
 impl Lanes {
@@ -113,7 +123,8 @@ impl<'a> PathTracer<'a> {
         let surrounded = scene.environment.is_some() || scene.sky.is_some();
         let roulette_below = if surrounded { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
         let lights = LightMix::new(scene);
-        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below }
+        let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
+        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below, layer_light }
     }
 
     /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.
@@ -142,16 +153,7 @@ impl<'a> PathTracer<'a> {
         watch: &mut impl Watch,
     ) -> PathRadiance {
         let lanes = self.lanes(wavelengths);
-        let mut path = Path {
-            origin: ray.origin,
-            vertex: ray.origin,
-            direction: ray.direction,
-            beta: Spectrum::ONE,
-            r_u: Spectrum::ONE,
-            r_l: Spectrum::ZERO,
-            depth: 0,
-            crossed: None,
-        };
+        let mut path = Path::new(ray.origin, ray.direction);
         let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
         let mut u = f64::from(first_flight);
         loop {
@@ -173,12 +175,16 @@ impl<'a> PathTracer<'a> {
                     let sum = self.escape(&path, &lanes, watch);
                     watch.see(|| Step::Escape { added: sum });
                     out.radiance += sum;
+                    let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
+                    let expected = self.layer_beside(&path, &lanes, beyond);
+                    self.add_difference(&mut out, expected, Spectrum::ZERO, watch);
                     false
                 }
                 Event::Surface(hit) => {
                     self.pass(&mut path, &lanes, f64::from(hit.t));
                     let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
                     let sum = self.emitted(&path, &hit, &surface);
+                    let expected = self.layer_beside(&path, &lanes, f64::from(surface.point.position.y));
                     watch.see(|| Step::surface(&hit, &surface, sum));
                     watch.light(LightSource::Emitter(hit.triangle), sum, false);
                     out.radiance += sum;
@@ -187,6 +193,8 @@ impl<'a> PathTracer<'a> {
                         let before = path.direction;
                         let scattered = scatter_at_surface(&mut path, &surface, rng);
                         watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
+                        let after = if scattered { self.layer_ahead(&path, &lanes) } else { Spectrum::ZERO };
+                        self.add_difference(&mut out, expected, after, watch);
                         scattered
                     }
                 }
@@ -207,14 +215,17 @@ impl<'a> PathTracer<'a> {
                         out.radiance +=
                             self.scatter_in_fog(&mut path, &scatterer, flight, &lanes, rng, watch);
                         watch.see(|| path.turn(before.1));
+                        let after = self.layer_at_collision(&path, &lanes, rng);
+                        self.add_difference(&mut out, Spectrum::ZERO, after, watch);
                         true
                     }
                 }
             };
-            if !goes_on || !survives_roulette(&mut path, self.roulette_below, rng, watch) {
+            let roulette = self.roulette(&path);
+            if !goes_on || !survives_roulette(&mut path, roulette, rng, watch) {
                 return out;
             }
-            u = rng.uniform_f64();
+            u = rng.flight();
         }
     }
 
@@ -227,6 +238,7 @@ impl<'a> PathTracer<'a> {
             bands,
             sun: self.scene.sun.as_ref().map_or(Spectrum::ONE, |sun| bands.gather(&sun.colour.0)),
             medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
+            layer: self.layer_lanes(wavelengths),
         }
     }
 
@@ -411,6 +423,11 @@ impl<'a> PathTracer<'a> {
 }
 
 impl Path {
+    pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
+        let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
+        Self { origin, vertex: origin, direction, beta, r_u, r_l, depth: 0, crossed: None }
+    }
+
     fn weights(&self) -> Weights {
         Weights { beta: self.beta, r_u: self.r_u, r_l: self.r_l }
     }
@@ -438,7 +455,8 @@ pub(crate) struct SurfaceTurn {
 #[inline(always)]
 pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut PathRng) -> Option<SurfaceTurn> {
     let wo = surface.world_from_shading.transpose() * -direction;
-    let sample = surface.bsdf.as_ref()?.sample(wo, rng.uniform(), rng.uniform2())?;
+    let (u, v) = rng.turn();
+    let sample = surface.bsdf.as_ref()?.sample(wo, rng.uniform(), [(u as f32).min(BELOW_ONE), v])?;
     let direction = (surface.world_from_shading * sample.wi).normalize();
     if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
         return None;
@@ -448,7 +466,7 @@ pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut Pat
 }
 
 /// Reflects the path at a surface or sends it through; false if it ends there.
-fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
+pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
     let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
     path.beta *= turn.weight;
     path.r_l = path.r_u * (1.0 / turn.pdf);
@@ -459,10 +477,15 @@ fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> 
 
 /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
 #[inline]
-fn survives_roulette(path: &mut Path, below: f32, rng: &mut PathRng, watch: &mut impl Watch) -> bool {
+fn survives_roulette(
+    path: &mut Path,
+    [below, least]: [f32; 2],
+    rng: &mut PathRng,
+    watch: &mut impl Watch,
+) -> bool {
     let mean = path.r_u.mean();
     if path.depth > ROULETTE_DEPTH {
-        let survival = (path.beta.max_lane() / (mean * below)).max(ROULETTE_MIN);
+        let survival = (path.beta.max_lane() / (mean * below)).max(least);
         if survival < 1.0 {
             let survived = rng.uniform() < survival;
             watch.see(|| Step::Roulette { survival, survived });

@@ -204,7 +204,7 @@ impl PathTracer<'_> {
     #[inline]
     pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Start {
         let (x, y) = (i % camera.width as usize, i / camera.width as usize);
-        // The first four dimensions are stratified over the pixel's samples, the rest a plain random stream.
+        // The first seven dimensions are stratified over the pixel's samples, the rest a plain random stream.
         let first = stratified(seed, i as u64, sample);
         let [dx, dy] = first.pixel.map(f64::from);
         let image_point = [x as f64 + dx, y as f64 + dy];
@@ -217,7 +217,7 @@ impl PathTracer<'_> {
             ray: camera.ray(image_point[0], image_point[1]),
             wavelengths,
             flight: first.flight,
-            rng: PathRng::new(seed, i as u64, sample),
+            rng: PathRng::new(seed, i as u64, sample).with_first(first.turn, first.second_flight),
         }
     }
 

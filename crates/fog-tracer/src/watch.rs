@@ -175,6 +175,11 @@ pub enum Step {
         /// After the turn.
         weights: Weights,
     },
+    /// Took the light that the layer of fog would have by itself for what lies ahead, instead of what was taken before.
+    Layer {
+        /// What the path adds to the sum: the difference.
+        added: Spectrum,
+    },
     /// The surface took the path in.
     Absorbed,
     /// The path has as many edges as `max_depth` allows.
@@ -193,9 +198,10 @@ impl Step {
     #[must_use]
     pub fn added(&self) -> Option<Spectrum> {
         match self {
-            Self::Surface { added, .. } | Self::Escape { added } | Self::Connection { added, .. } => {
-                Some(*added)
-            }
+            Self::Surface { added, .. }
+            | Self::Escape { added }
+            | Self::Layer { added }
+            | Self::Connection { added, .. } => Some(*added),
             _ => None,
         }
     }

@@ -102,6 +102,9 @@ pub(crate) fn finish(
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
+    if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
+        record["lighting"]["sky"]["state"] = sky.state_json().clone();
+    }
     let denoiser = resources.denoiser(spec)?;
     let denoised =
         denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;

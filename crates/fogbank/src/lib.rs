@@ -33,6 +33,7 @@ mod reference;
 mod replay;
 mod resources;
 mod shared;
+mod skies;
 mod sources;
 mod surroundings;
 mod sweep;

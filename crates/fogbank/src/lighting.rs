@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::resources::Resources;
-use fog_plan::{EnvironmentSpec, LightingSpec, LightsSpec};
+use fog_core::daylight::daylight;
+use fog_plan::{EnvironmentSpec, LightingSpec, LightsSpec, SunSpec};
 use fog_scene::light::{Environment, Sun};
 use fog_scene::light_groups::{LightGroup, LightGroups, LightPattern};
 use fog_scene::sky_map::SkyMap;
@@ -14,10 +15,10 @@ pub(crate) struct DistantLights {
     pub(crate) sun: Option<Sun>,
 }
 
-/// Environment, sky and sun of a frame.
+/// Environment, sky and sun (or moon) of a frame.
 ///
 /// # Errors
-/// If an image cannot be had.
+/// If an image or a sky cannot be had.
 pub(crate) fn distant_lights(spec: &LightingSpec, resources: &Resources) -> Result<DistantLights, Error> {
     let environment = match spec.environment {
         Some(EnvironmentSpec::Uniform { radiance, .. }) if radiance > 0.0 => {
@@ -25,11 +26,27 @@ pub(crate) fn distant_lights(spec: &LightingSpec, resources: &Resources) -> Resu
         }
         _ => None,
     };
-    let sun = spec
-        .sun
-        .filter(|s| s.irradiance > 0.0)
-        .map(|s| Sun::new(s.elevation_deg, s.azimuth_deg, s.irradiance, s.angular_diameter_deg));
-    Ok(DistantLights { environment, sky: resources.surroundings().image(spec)?, sun })
+    let of_one = spec.luminance_of_one_cd_m2;
+    let surroundings = resources.surroundings();
+    let sun = spec.sun.as_ref().and_then(|sun| plain_sun(sun, resources));
+    Ok(match surroundings.sky(spec)? {
+        Some(sky) => DistantLights {
+            environment,
+            sky: Some(sky.dome.map.scaled(1.0 / of_one)),
+            sun: sun.or_else(|| sky.sun(&resources.observer, of_one)),
+        },
+        None => DistantLights { environment, sky: surroundings.image(spec)?, sun },
+    })
+}
+
+/// A sun whose irradiance is given.
+fn plain_sun(spec: &SunSpec, resources: &Resources) -> Option<Sun> {
+    let irradiance = spec.irradiance.filter(|&irradiance| irradiance > 0.0)?;
+    let sun = Sun::new(spec.elevation_deg, spec.azimuth_deg, irradiance, spec.angular_diameter_deg);
+    Some(match spec.color_temperature_k {
+        Some(k) => sun.with_colour(daylight(&resources.observer, k)),
+        None => sun,
+    })
 }
 
 /// The groups of lights that are told apart, if any.

@@ -71,7 +71,7 @@ impl Resources {
             }
             self.denoiser = Some(denoiser);
         }
-        self.surroundings.prepare(&spec.lighting);
+        self.surroundings.prepare(&spec.lighting, &self.observer);
         if let Some(scene) = &spec.scene
             && !self.scenes.contains_key(&scene.file)
         {

@@ -1,15 +1,19 @@
-//! Images of the surroundings, each read once.
+//! What surrounds scenes: images, each read once, and skies, each computed once.
 
 use crate::error::Error;
+use crate::skies::{Skies, Sky};
+use fog_core::colour::Observer;
 use fog_plan::{EnvironmentSpec, LightingSpec};
 use fog_scene::sky_map::{MAX_TEXELS, SkyMap};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Images by their path as written. What cannot be had is remembered with its reason and fails the frames that need it.
+/// Images by their path as written, skies by what they are made from. What cannot be had is remembered with its reason and fails the frames that need it.
 #[derive(Debug, Default)]
 pub(crate) struct Surroundings {
     images: HashMap<PathBuf, Result<Image, String>>,
+    made: HashMap<String, Result<Sky, String>>,
+    skies: Skies,
 }
 
 #[derive(Debug)]
@@ -19,12 +23,33 @@ struct Image {
 }
 
 impl Surroundings {
-    /// Reads what the lighting of a frame needs and is not there yet.
-    pub(crate) fn prepare(&mut self, lighting: &LightingSpec) {
+    /// Reads or computes what the lighting of a frame needs and is not there yet.
+    pub(crate) fn prepare(&mut self, lighting: &LightingSpec, observer: &Observer) {
         if let Some(EnvironmentSpec::Image { image, .. }) = &lighting.environment
             && !self.images.contains_key(image)
         {
             self.images.insert(image.clone(), read(image));
+        }
+        if let Some(spec) = &lighting.sky
+            && !self.made.contains_key(&key(lighting))
+        {
+            let sky = self.skies.make(spec, lighting, observer);
+            self.made.insert(key(lighting), sky);
+        }
+    }
+
+    /// The sky of a lighting; `None` if it has none.
+    ///
+    /// # Errors
+    /// Why it cannot be had.
+    pub(crate) fn sky(&self, lighting: &LightingSpec) -> Result<Option<&Sky>, Error> {
+        if lighting.sky.is_none() {
+            return Ok(None);
+        }
+        match self.made.get(&key(lighting)) {
+            Some(Ok(sky)) => Ok(Some(sky)),
+            Some(Err(reason)) => Err(Error::Lighting(reason.clone())),
+            None => Err(Error::Lighting("lighting.sky was not prepared".to_owned())),
         }
     }
 
@@ -47,6 +72,11 @@ impl Surroundings {
     pub(crate) fn hash(&self, lighting: &LightingSpec) -> Option<&str> {
         Some(&self.images.get(lighting.image()?)?.as_ref().ok()?.blake3)
     }
+}
+
+/// All that a sky depends on, as text.
+fn key(lighting: &LightingSpec) -> String {
+    serde_json::json!([lighting.sky, lighting.sun, lighting.moon]).to_string()
 }
 
 fn read(path: &Path) -> Result<Image, String> {

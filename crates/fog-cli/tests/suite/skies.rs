@@ -95,3 +95,62 @@ fn images_that_cannot_be_used() {
     write(dir.path(), "black.hdr", hdr("-Y 2 +X 4", &[0; 32]));
     assert!(refused("black.hdr").contains("it is black everywhere"));
 }
+
+#[test]
+fn skies_by_day_and_night() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let lightings = [
+        "{sky: {model: overcast, zenith_luminance_cd_m2: 4000, color_temperature_k: 6000}, luminance_of_one_cd_m2: 4000}",
+        "{sky: {model: cie, cie_type: 12, horizontal_illuminance_lx: 15000}, luminance_of_one_cd_m2: 1000, \
+         sun: {elevation_deg: 40, azimuth_deg: 90, irradiance: 20, color_temperature_k: 5000}}",
+        "{sky: {model: clear}, luminance_of_one_cd_m2: 1000, sun: {elevation_deg: 40, azimuth_deg: 90}}",
+        "{sky: {model: clear}, luminance_of_one_cd_m2: 1, sun: {elevation_deg: -6, azimuth_deg: 90}}",
+        "{sky: {model: clear}, luminance_of_one_cd_m2: 1e-3, sun: {elevation_deg: -50, azimuth_deg: 0}, \
+         moon: {elevation_deg: 80, azimuth_deg: 180}}",
+        "{sky: {model: clear}, luminance_of_one_cd_m2: 1e-4}",
+    ];
+    // The camera looks straight up, away from the discs; 60 paths, for colours by eight wavelengths are noisy.
+    let text = lit(
+        "day",
+        &format!("camera: {{pitch_deg: 90}}\nsweep: {{axes: {{lighting: [{}]}}}}\n", lightings.join(", ")),
+    )
+    .replace("samples: 3", "samples: 60")
+    .replace("horizontal_fov_deg: 60", "horizontal_fov_deg: 4");
+    write(dir.path(), "c.yaml", text);
+    sweep(dir.path(), "out").ok();
+    let ids = ids(dir.path());
+    let state = |k: usize| {
+        let record = read_json(&dir.path().join(format!("out/{}.json", ids[k])));
+        let of_one = record["lighting"]["luminance_of_one_cd_m2"].as_f64().unwrap_or(1.0);
+        (record["lighting"]["sky"]["state"].clone(), of_one)
+    };
+    for k in 0..lightings.len() {
+        let picture = read_picture(&dir.path().join(format!("out/{}.hdr.exr", ids[k]))).expect("a picture");
+        let (state, of_one) = state(k);
+        // What is seen, times what 1 stands for, is the sky that the record tells of.
+        let count = picture.rgb.len() as f64;
+        for c in 0..3 {
+            let seen = picture.rgb.iter().map(|p| f64::from(p[c])).sum::<f64>() / count * of_one;
+            let told = state["zenith_linear_srgb"][c].as_f64().expect("a number");
+            assert!((seen / told - 1.0).abs() < 0.06, "sky {k}, channel {c}: {seen} for {told}; {state}");
+        }
+    }
+    let number = |k: usize, path: &str| state(k).0.pointer(path).and_then(|v| v.as_f64()).unwrap_or(f64::NAN);
+    let near = |value: f64, want: f64, share: f64| {
+        assert!((value / want - 1.0).abs() < share, "{value} for {want}");
+    };
+    near(number(0, "/zenith_luminance_cd_m2"), 4000.0, 2e-3);
+    near(number(0, "/horizontal_illuminance_lx"), 4000.0 * 7.0 / 9.0 * std::f64::consts::PI, 2e-3);
+    near(number(1, "/horizontal_illuminance_lx"), 15_000.0, 1e-3);
+    // Noon, the end of civil twilight (3.4 lx), the full moon (0.27 lx in the zenith), a moonless night (6e-4 lx): Seidelmann 1992.
+    near(
+        number(2, "/horizontal_illuminance_lx") + number(2, "/disc/horizontal_illuminance_lx"),
+        66_000.0,
+        0.3,
+    );
+    near(number(3, "/horizontal_illuminance_lx"), 3.4, 0.3);
+    assert!(state(3).0["disc"].is_null(), "{}", state(3).0);
+    assert_eq!(state(4).0["disc"]["source"], "moon");
+    near(number(4, "/horizontal_illuminance_lx") + number(4, "/disc/horizontal_illuminance_lx"), 0.267, 0.25);
+    near(number(5, "/horizontal_illuminance_lx"), 6e-4, 0.3);
+}

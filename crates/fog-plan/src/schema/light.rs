@@ -8,6 +8,7 @@ use serde::{
     de::{Error, IntoDeserializer, MapAccess, Visitor, value::MapAccessDeserializer},
 };
 
+use super::sky::{MoonFile, SkyFile};
 use crate::ranges;
 
 /// A preset or a map.
@@ -46,13 +47,19 @@ pub(crate) struct LightingMap {
     /// Light from every direction. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) environment: Option<EnvironmentFile>,
+    /// A sky with structure and its ground, in place of `environment`. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sky: Option<SkyFile>,
     /// The sun. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sun: Option<SunFile>,
+    /// The moon, under a clear sky. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) moon: Option<MoonFile>,
     /// Whether the scene file's emitting surfaces and lights shine.
     pub(crate) scene_emitters: bool,
     /// Luminance in cd/m² that the radiance 1 stands for: emission (cd/m²), lamps (cd) and directional lights (lx) of the
-    /// scene file are divided by it.
+    /// scene file, and the light of `sky`, are divided by it.
     #[schemars(range(min = ranges::LUMINANCE_CD_M2.min, max = ranges::LUMINANCE_CD_M2.max))]
     /// Absent: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -87,7 +94,9 @@ impl Default for LightingMap {
     fn default() -> Self {
         Self {
             environment: None,
+            sky: None,
             sun: None,
+            moon: None,
             scene_emitters: true,
             luminance_of_one_cd_m2: None,
             groups: Vec::new(),
@@ -138,10 +147,14 @@ pub(crate) struct SunFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) azimuth_deg: Option<f64>,
     /// Irradiance on a plane normal to the beam, with the spectrum of D65, recorded as R = G = B = this value; with
-    /// wavelength_nm the spectral irradiance there.
+    /// wavelength_nm the spectral irradiance there. Not with a clear sky, which says what is left of the sun's light.
     #[schemars(range(min = ranges::RADIANCE.min, max = ranges::RADIANCE.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) irradiance: Option<f64>,
+    /// Correlated colour temperature of daylight in kelvins, the irradiance's luminance kept. Absent: that of D65.
+    #[schemars(range(min = ranges::COLOR_TEMPERATURE_K.min, max = ranges::COLOR_TEMPERATURE_K.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) color_temperature_k: Option<f64>,
     /// Angular diameter in degrees; 0 is a parallel beam.
     #[schemars(range(min = ranges::SUN_DIAMETER_DEG.min, max = ranges::SUN_DIAMETER_DEG.max))]
     pub(crate) angular_diameter_deg: f64,
@@ -163,6 +176,7 @@ impl Default for SunFile {
             elevation_deg: None,
             azimuth_deg: None,
             irradiance: None,
+            color_temperature_k: None,
             angular_diameter_deg: SUN_DIAMETER_DEG,
             wavelength_nm: None,
         }
@@ -181,7 +195,10 @@ impl<'de> Visitor<'de> for LightingVisitor {
     type Value = LightingFile;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a preset (day, night, sunny) or a map with keys environment, sun, scene_emitters, luminance_of_one_cd_m2, groups")
+        f.write_str(
+            "a preset (day, night, sunny) or a map with keys environment, sky, sun, moon, scene_emitters, \
+             luminance_of_one_cd_m2, groups",
+        )
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<LightingFile, E> {

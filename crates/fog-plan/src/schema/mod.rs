@@ -9,6 +9,7 @@ mod light;
 mod or_none;
 mod patchiness;
 mod phase;
+mod sky;
 mod sweep;
 
 use schemars::JsonSchema;
@@ -24,6 +25,9 @@ pub(crate) use light::{
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use sky::{
+    AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
+};
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
 
 use or_none::Example;

@@ -5,7 +5,8 @@ use crate::{
     frame::{EnvironmentSpec, LightingSpec, SunSpec},
     ranges,
     schema::{
-        EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG, SunFile,
+        EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG,
+        SkyModelName, SunFile,
     },
 };
 
@@ -20,17 +21,27 @@ impl Check<'_> {
             LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
             LightingFile::Map(map) => map,
         };
-        let LightingMap { environment, sun, scene_emitters, luminance_of_one_cd_m2, groups } = &**map;
+        let LightingMap { environment, sky, sun, moon, scene_emitters, luminance_of_one_cd_m2, groups } =
+            &**map;
+        if sky.is_some() && environment.is_some() {
+            self.problem("lighting.environment", "not with lighting.sky, which surrounds the scene too");
+        }
+        let has_sun = sun.is_some();
+        let clear = sky.as_ref().is_some_and(|sky| sky.model == Some(SkyModelName::Clear));
         let environment =
             environment.as_ref().map_or(Some(None), |e| self.environment(e, rendered_nm).map(Some));
-        let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, rendered_nm).map(Some));
+        let sky = sky.as_ref().map_or(Some(None), |sky| self.sky(sky, has_sun).map(Some));
+        let sun = sun.as_ref().map_or(Some(None), |sun| self.sun(sun, clear, rendered_nm).map(Some));
+        let moon = moon.as_ref().map_or(Some(None), |moon| self.moon(moon, clear).map(Some));
         let path = "lighting.luminance_of_one_cd_m2";
         let luminance = self.optional(path, *luminance_of_one_cd_m2, ranges::LUMINANCE_CD_M2);
         let groups = self.light_groups(groups);
         Some(LightingSpec {
             preset: None,
             environment: environment?,
+            sky: sky?,
             sun: sun?,
+            moon: moon?,
             scene_emitters: *scene_emitters,
             luminance_of_one_cd_m2: luminance?.unwrap_or(LUMINANCE_OF_ONE_CD_M2),
             groups: groups?,
@@ -75,7 +86,8 @@ impl Check<'_> {
         alone.then(|| EnvironmentSpec::Image { image: image.into(), scale, rotation_deg: rotation })
     }
 
-    fn sun(&mut self, file: &SunFile, rendered_nm: Option<f64>) -> Option<SunSpec> {
+    /// `clear` says whether the frame has a clear sky, whose air says how much of the sun's light is left.
+    fn sun(&mut self, file: &SunFile, clear: bool, rendered_nm: Option<f64>) -> Option<SunSpec> {
         let path = "lighting.sun.elevation_deg";
         let elevation = self.required(path, file.elevation_deg, "degrees above the horizon, -90 to 90");
         let elevation = elevation.and_then(|elevation| self.range(path, elevation, ranges::ELEVATION_DEG));
@@ -83,10 +95,15 @@ impl Check<'_> {
         let azimuth =
             self.required(path, file.azimuth_deg, "heading towards the sun in degrees, 0 = -Z, 90 = +X");
         let azimuth = azimuth.and_then(|azimuth| self.range(path, azimuth, ranges::HEADING_DEG));
-        let path = "lighting.sun.irradiance";
-        let irradiance =
-            self.required(path, file.irradiance, "irradiance on a plane normal to the beam, 0 or more");
-        let irradiance = irradiance.and_then(|irradiance| self.range(path, irradiance, ranges::RADIANCE));
+        let irradiance = self.sun_irradiance(file, clear);
+        let path = "lighting.sun.color_temperature_k";
+        let colour = self.optional(path, file.color_temperature_k, ranges::COLOR_TEMPERATURE_K);
+        if file.color_temperature_k.is_some() && file.wavelength_nm.is_some() {
+            self.problem(
+                path,
+                "not with lighting.sun.wavelength_nm: light of one wavelength has no other colour",
+            );
+        }
         let path = "lighting.sun.angular_diameter_deg";
         let diameter = self.range(path, file.angular_diameter_deg, ranges::SUN_DIAMETER_DEG);
         let wavelength = self.wavelength("lighting.sun.wavelength_nm", file.wavelength_nm, rendered_nm);
@@ -94,9 +111,32 @@ impl Check<'_> {
             elevation_deg: elevation?,
             azimuth_deg: azimuth?,
             irradiance: irradiance?,
+            color_temperature_k: colour?,
             angular_diameter_deg: diameter?,
             wavelength_nm: wavelength?,
         })
+    }
+
+    fn sun_irradiance(&mut self, file: &SunFile, clear: bool) -> Option<Option<f64>> {
+        let path = "lighting.sun.irradiance";
+        if !clear {
+            let why = "irradiance on a plane normal to the beam, 0 or more";
+            let irradiance = self.required(path, file.irradiance, why)?;
+            return self.range(path, irradiance, ranges::RADIANCE).map(Some);
+        }
+        let given = [
+            ("irradiance", file.irradiance.is_some()),
+            ("color_temperature_k", file.color_temperature_k.is_some()),
+            ("wavelength_nm", file.wavelength_nm.is_some()),
+        ];
+        let mut none = true;
+        for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+            let message =
+                "not with a clear sky (lighting.sky), whose air says what is left of the sun's light";
+            self.problem(&format!("lighting.sun.{key}"), message);
+            none = false;
+        }
+        none.then_some(None)
     }
 
     /// A light given at one wavelength has no meaning at any other.
@@ -127,7 +167,9 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
         Preset::Day => LightingSpec {
             preset: Some("day"),
             environment: environment(1.0),
+            sky: None,
             sun: None,
+            moon: None,
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
             groups: Vec::new(),
@@ -135,7 +177,9 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
         Preset::Night => LightingSpec {
             preset: Some("night"),
             environment: None,
+            sky: None,
             sun: None,
+            moon: None,
             scene_emitters: true,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
             groups: Vec::new(),
@@ -146,10 +190,13 @@ fn preset_lighting(preset: Preset) -> LightingSpec {
             sun: Some(SunSpec {
                 elevation_deg: 35.0,
                 azimuth_deg: 140.0,
-                irradiance: 2.0,
+                irradiance: Some(2.0),
+                color_temperature_k: None,
                 angular_diameter_deg: SUN_DIAMETER_DEG,
                 wavelength_nm: None,
             }),
+            sky: None,
+            moon: None,
             scene_emitters: false,
             luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
             groups: Vec::new(),

@@ -5,6 +5,7 @@ mod fog;
 mod light_groups;
 mod lighting;
 mod patchiness;
+mod sky;
 mod view;
 
 use serde::Serialize;

@@ -90,6 +90,7 @@ impl Replayed {
                 "weights": weights_json(weights),
             }),
             Step::Escape { added } => json!({ "step": "escape", "added": added.0 }),
+            Step::Layer { added } => json!({ "step": "layer_light", "added": added.0 }),
             Step::Absorbed => json!({ "step": "absorbed" }),
             Step::TooLong => json!({ "step": "max_depth" }),
             Step::Roulette { survival, survived } => {

@@ -102,6 +102,13 @@ impl Replayed {
                 writeln!(f, "scattering {depth} turns the path by {angle:.3}° to {}", along(*direction))?;
                 throughput(f, weights)
             }
+            Step::Layer { added } => {
+                writeln!(
+                    f,
+                    "expects from here what the layer of fog alone would show, no longer what it expected"
+                )?;
+                self.adds(f, "that changes the sum", added)
+            }
             Step::Absorbed => writeln!(f, "absorbed by the surface: the path ends"),
             Step::TooLong => writeln!(f, "as many edges as render.max_depth allows: the path ends"),
             Step::Roulette { survival, survived } => {

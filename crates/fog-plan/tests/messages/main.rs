@@ -1,5 +1,7 @@
 //! Every kind of mistake, with the exact message.
 
+mod lights;
+
 /// The first five lines; tests add the rest, from line 6.
 const HEAD: &str = "version: 1\nname: t\nscene: {file: a.glb}\nlighting: day\nrender: {samples: 4}\n";
 
@@ -330,17 +332,6 @@ fn droplets() {
 }
 
 #[test]
-fn luminance_of_one() {
-    let head = HEAD.replace("lighting: day", "lighting: {luminance_of_one_cd_m2: 0}");
-    assert_eq!(
-        errors_with(&format!("{head}fog: none\n"), &[]),
-        [
-            "configs/x.yaml:4:36: lighting.luminance_of_one_cd_m2: 0 cd/m² is out of range; valid: 1e-6 to 1000000000 cd/m²"
-        ]
-    );
-}
-
-#[test]
 fn what_is_shared() {
     let head = HEAD.replace("samples: 4", "samples: 4, share: fogs");
     assert_eq!(
@@ -349,94 +340,6 @@ fn what_is_shared() {
             "configs/x.yaml:5:29: render.share: unknown value \"fogs\"; expected one of lights, fog; did you mean `fog`?"
         ]
     );
-}
-
-#[test]
-fn light_groups() {
-    let groups = |groups: &str| {
-        let lighting = format!("lighting: {{groups: {groups}}}");
-        errors_with(&format!("{}fog: none\n", HEAD.replace("lighting: day", &lighting)), &[])
-    };
-    assert_eq!(
-        groups("[{name: sky, lights: [sun, enviroment]}, {name: rest, lights: [sun]}]"),
-        [
-            "configs/x.yaml:4:47: lighting.groups.0.lights.1: \"enviroment\" is no light; expected one of environment, sun, \
-             lamps, directional, emitters, node:NAME, material:NAME; did you mean `environment`?",
-            "configs/x.yaml:4:68: lighting.groups.1.name: `rest` is taken: it is the group of all lights that belong to no \
-             other",
-        ]
-    );
-    assert_eq!(
-        groups("[{name: a b, lights: []}, {lights: [\"node:\"], intensity: -1}]"),
-        [
-            "configs/x.yaml:4:28: lighting.groups.0.name: \"a b\" is not a name of a group: use 1 to 32 letters, digits, `_` \
-             and `-`",
-            "configs/x.yaml:4:41: lighting.groups.0.lights: empty; name at least one light",
-            "configs/x.yaml:4:46: lighting.groups.1.name: missing; a name for the layer, such as sun",
-            "configs/x.yaml:4:56: lighting.groups.1.lights.0: \"node:\" is no light; expected one of environment, sun, lamps, \
-             directional, emitters, node:NAME, material:NAME",
-            "configs/x.yaml:4:77: lighting.groups.1.intensity: -1 is out of range; valid: 0 to 1000000",
-        ]
-    );
-    assert_eq!(
-        groups("[{name: a, lights: [sun]}, {name: a, lights: [lamps]}]"),
-        ["configs/x.yaml:4:54: lighting.groups.1.name: \"a\" is named twice"]
-    );
-    let many = vec!["{name: a, lights: [sun]}"; 33].join(", ");
-    assert_eq!(
-        groups(&format!("[{many}]")),
-        ["configs/x.yaml:4:20: lighting.groups: 33 groups are too many; at most 32"]
-    );
-}
-
-#[test]
-fn images_of_the_surroundings() {
-    let with = |environment: &str| {
-        let lighting = format!("lighting: {{environment: {environment}}}");
-        errors_with(&format!("{}fog: none\n", HEAD.replace("lighting: day", &lighting)), &[])
-    };
-    assert_eq!(
-        with("{}"),
-        [
-            "configs/x.yaml:4:25: lighting.environment.radiance: missing; radiance of the surroundings, 0 or more; or image, \
-          the path of an equirectangular image"
-        ]
-    );
-    assert_eq!(
-        with("{image: a.exr, radiance: 1, scale: 0}"),
-        [
-            "configs/x.yaml:4:50: lighting.environment.radiance: not with lighting.environment.image, which says the radiance",
-            "configs/x.yaml:4:60: lighting.environment.scale: 0 is out of range; valid: above 0 up to 1000000000000"
-        ]
-    );
-    assert_eq!(
-        with("{radiance: 1, rotation_deg: 90}"),
-        ["configs/x.yaml:4:53: lighting.environment.rotation_deg: only with lighting.environment.image"]
-    );
-    assert_eq!(
-        with("{image: a.exr, rotation_deg: 400}"),
-        [
-            "configs/x.yaml:4:54: lighting.environment.rotation_deg: 400 deg is out of range; valid: -360 to 360 deg"
-        ]
-    );
-    assert_eq!(
-        with("{image: ''}"),
-        ["configs/x.yaml:4:33: lighting.environment.image: empty; the path of an equirectangular image"]
-    );
-}
-
-#[test]
-fn lights_at_a_wavelength() {
-    let head = HEAD.replace("lighting: day", "lighting: {environment: {radiance: 1, wavelength_nm: 550}}");
-    assert_eq!(
-        errors_with(&format!("{head}fog: none\n"), &[]),
-        [
-            "configs/x.yaml:4:54: lighting.environment.wavelength_nm: 550 nm, but render.wavelength_nm is absent (the whole \
-             visible spectrum is rendered); a light given at one wavelength needs render.wavelength_nm to be the same"
-        ]
-    );
-    let set = ["render.wavelength_nm=550".to_owned()];
-    assert!(fog_plan::parse(&format!("{head}fog: none\n"), "x", &set).is_ok());
 }
 
 #[test]
