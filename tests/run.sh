@@ -29,7 +29,7 @@ deny="$(command -v cargo-deny || true)"
 
 step "Open Image Denoise, for the tests of the output \`denoised\`"
 [ -d "$tools/venv" ] || python3 -m venv "$tools/venv"
-[ -d "$tools/oidn/pyoidn" ] || "$tools/venv/bin/pip" install --quiet --disable-pip-version-check --no-deps \
+[ -d "$tools/oidn/pyoidn" ] || "$tools/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps \
   --target "$tools/oidn" pyoidn==2.5.1.0
 FOGBANK_OIDN="$(realpath "$tools/oidn/pyoidn/oidn/lib")"
 export FOGBANK_OIDN

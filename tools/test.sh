@@ -5,5 +5,5 @@ cd "$(dirname "$0")/.."
 target="${CARGO_TARGET_DIR:-target}"
 cargo build --quiet --release -p fog-cli
 [ -d "$target/tools/venv" ] || python3 -m venv "$target/tools/venv"
-"$target/tools/venv/bin/pip" install --quiet --disable-pip-version-check -e "tools[test]"
+"$target/tools/venv/bin/python" -m pip install --quiet --disable-pip-version-check -e "tools[test]"
 FOGBANK="$(realpath "$target/release/fogbank")" "$target/tools/venv/bin/python" -m pytest -q tools/tests
