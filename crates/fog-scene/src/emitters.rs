@@ -161,8 +161,8 @@ impl Piece {
 impl Piece {
     fn patch(&self) -> Patch {
         let [a, b, c] = self.corners;
-        let Self { normal, two_sided, area, .. } = *self;
-        Patch { centre: (a + b + c) / 3.0, normal, two_sided, area }
+        let Self { two_sided, area, .. } = *self;
+        Patch { centre: (a + b + c) / 3.0, two_sided, area }
     }
 }
 
