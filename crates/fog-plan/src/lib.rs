@@ -16,6 +16,7 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod filter;
 mod fog_sources;
 mod frame;
 mod identity;
@@ -38,6 +39,7 @@ mod yaml;
 
 pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
+pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,

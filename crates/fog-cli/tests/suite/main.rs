@@ -28,3 +28,4 @@ mod share;
 mod skies;
 mod visibility;
 mod visibility_laws;
+mod workers;
