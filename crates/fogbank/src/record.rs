@@ -5,7 +5,7 @@ use crate::denoise;
 use crate::fog::Fog;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
-use fog_scene::camera::Camera;
+use fog_scene::camera::{Camera, Intrinsics};
 use fog_scene::scene::Scene;
 use fog_tracer::truth::{TAU_NM, TRANSMITTANCE_NM};
 use serde_json::{Value, json};
@@ -120,12 +120,12 @@ fn quaternion_json(camera: &Camera) -> Value {
 
 /// Intrinsics in OpenCV's convention: pixel centres at integer coordinates.
 fn intrinsics_json(camera: &Camera) -> Value {
-    let f = camera.focal_px();
+    let Intrinsics { fx_px, fy_px, cx_px, cy_px } = camera.intrinsics();
     json!({
-        "fx_px": f,
-        "fy_px": f,
-        "cx_px": 0.5 * f64::from(camera.width) - 0.5,
-        "cy_px": 0.5 * f64::from(camera.height) - 0.5,
+        "fx_px": fx_px,
+        "fy_px": fy_px,
+        "cx_px": cx_px,
+        "cy_px": cy_px,
         "convention": "OpenCV: pixel centres at integer coordinates",
         "distortion": "none",
     })

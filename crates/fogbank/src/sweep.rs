@@ -269,7 +269,7 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64
     let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
     let attributes = BTreeMap::from([
         ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
-        ("focal_px".to_owned(), Attribute::Number(rendered.camera.focal_px() as f32)),
+        ("focal_px".to_owned(), Attribute::Number(rendered.camera.intrinsics().fx_px as f32)),
         ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
     ]);
     data_set.write_frame(&FrameFiles {
