@@ -279,7 +279,7 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64
         frame: &rendered.frame,
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
-        exposure: spec.sensor.exposure as f32,
+        exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,
     })?;
