@@ -17,6 +17,7 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod camera_record;
 mod changed_files;
 mod compare;
 mod denoise;

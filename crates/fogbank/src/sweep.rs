@@ -7,7 +7,7 @@ use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::shared::{render_set, share_sets};
-use crate::{CODE_DIGEST, changed_files, frame};
+use crate::{CODE_DIGEST, camera_record, changed_files, frame};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
 use fog_plan::{FrameSpec, Plan};
 use fog_tracer::render::Work;
@@ -266,14 +266,11 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error>
 }
 
 fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64) -> Result<(), Error> {
-    let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
-    let mut attributes = BTreeMap::from([
-        ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
-        ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
-    ]);
-    if let Some(intrinsics) = rendered.camera.lens.intrinsics() {
-        attributes.insert("focal_px".to_owned(), Attribute::Number(intrinsics.fx_px as f32));
-    }
+    let mut attributes: BTreeMap<_, _> = camera_record::attributes(&rendered.camera)
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect();
+    attributes.insert("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone()));
     data_set.write_frame(&FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,
