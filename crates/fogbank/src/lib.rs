@@ -17,11 +17,13 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod camera_record;
 mod changed_files;
 mod compare;
 mod denoise;
 mod droplets;
 mod error;
+mod exposure;
 mod fog;
 mod forecast;
 mod frame;

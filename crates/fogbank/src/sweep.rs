@@ -9,7 +9,7 @@ use crate::selection::Selection;
 use crate::tracker::Tracker;
 use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
-use crate::{CODE_DIGEST, changed_files, frame};
+use crate::{CODE_DIGEST, camera_record, changed_files, frame};
 use fog_dataset::{
     Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
 };
@@ -254,18 +254,17 @@ pub(crate) fn store(
     rendered: &Rendered,
     seconds: f64,
 ) -> Result<(), Error> {
-    let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
-    let attributes = BTreeMap::from([
-        ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
-        ("focal_px".to_owned(), Attribute::Number(rendered.camera.focal_px() as f32)),
-        ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
-    ]);
+    let mut attributes: BTreeMap<_, _> = camera_record::attributes(&rendered.camera)
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect();
+    attributes.insert("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone()));
     data_set.write_frame(&FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
-        exposure: spec.sensor.exposure as f32,
+        exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,
     })?;
