@@ -30,6 +30,7 @@ mod plan;
 mod presets;
 mod ranges;
 mod read;
+mod scene;
 mod schema;
 mod sensor;
 mod set;
@@ -44,13 +45,14 @@ pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
+    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
 pub use plan::{AxisSummary, Plan};
+pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
 pub use sensor::ExposureSpec;
 pub use share::Share;

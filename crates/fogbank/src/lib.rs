@@ -33,6 +33,7 @@ mod record;
 mod reference;
 mod replay;
 mod resources;
+mod scenes;
 mod shared;
 mod skies;
 mod sources;
