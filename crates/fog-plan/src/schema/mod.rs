@@ -6,6 +6,7 @@ mod camera;
 mod droplets;
 mod exposure;
 mod fog;
+mod lens;
 mod light;
 mod or_none;
 mod patchiness;
@@ -21,6 +22,7 @@ pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile, ShareFil
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
+pub(crate) use lens::{IntrinsicsFile, LensFile};
 pub(crate) use light::{
     EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset, SunFile,
 };
