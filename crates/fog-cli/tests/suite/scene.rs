@@ -74,9 +74,9 @@ fn a_configuration_makes_its_scene() {
         assert_eq!(run.code, Some(2), "{}", run.stderr);
         run.stderr
     };
-    assert!(limited("{triangles: 40}").contains(
-        "generated targets (seed 1): the scene has more than 40 triangles (scene.limits.triangles)"
-    ));
+    assert!(
+        limited("{triangles: 10}").contains("POSITION has 102 elements; the limit on triangles allows 32")
+    );
     assert!(limited("{nodes: 3}").contains("at most 3 are read (scene.limits.nodes)"));
     assert!(limited("{texture_px: 9}").contains("more than 9 pixels together (scene.limits.texture_px)"));
     assert!(limited("{file_bytes: 9}").contains("larger than 9 bytes together (scene.limits.file_bytes)"));
