@@ -165,8 +165,8 @@ impl Progress for Reporter {
                     format!("optics table ({name}): built in {seconds:.1} s, but not kept: {reason}")
                 }
             }),
-            Event::Scene { path, triangles, warnings, seconds } => {
-                self.say(&format!("scene {}: {triangles} triangles, {seconds:.2} s", path.display()));
+            Event::Scene { name, triangles, warnings, seconds } => {
+                self.say(&format!("scene {name}: {triangles} triangles, {seconds:.2} s"));
                 for warning in warnings {
                     self.say(&format!("  warning: {warning}"));
                 }

@@ -10,6 +10,7 @@ use crate::{
     lens::{IntrinsicsSpec, LensSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    scene::SceneSpec,
     sensor::ExposureSpec,
     share::Share,
     sky::{MoonSpec, SkySpec},
@@ -54,13 +55,6 @@ fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) ->
         map.serialize_entry(path, value)?;
     }
     map.end()
-}
-
-/// A scene file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SceneSpec {
-    /// Path as written in the configuration (`.glb` or `.gltf`), relative to the current folder.
-    pub file: PathBuf,
 }
 
 /// The fog of a frame.

@@ -32,6 +32,7 @@ mod plan;
 mod presets;
 mod ranges;
 mod read;
+mod scene;
 mod schema;
 mod sensor;
 mod set;
@@ -47,7 +48,7 @@ pub use error::{PlanError, Problem};
 pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
+    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use lens::{IntrinsicsSpec, LensSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
@@ -55,6 +56,7 @@ pub use load::{load, parse};
 pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
 pub use plan::{AxisSummary, Plan};
+pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
 pub use sensor::ExposureSpec;
 pub use share::Share;

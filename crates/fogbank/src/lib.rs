@@ -34,6 +34,7 @@ mod record;
 mod reference;
 mod replay;
 mod resources;
+mod scenes;
 mod selection;
 mod shared;
 mod skies;

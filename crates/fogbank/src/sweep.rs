@@ -186,13 +186,13 @@ fn warn_of_unknown_lights<'f>(
 ) {
     let mut said = BTreeSet::new();
     for frame in frames {
-        let Some(file) = frame.scene.as_ref().map(|s| s.file.as_path()) else { continue };
-        let Ok(loaded) = resources.scene(Some(file)) else { continue };
+        let Some(scene) = &frame.scene else { continue };
+        let Ok(loaded) = resources.scene(Some(scene)) else { continue };
         for group in &frame.lighting.groups {
             for lights in group.lights.iter().filter(|lights| !pattern(lights).is_known(&loaded)) {
                 let text = format!(
                     "lighting.groups: {} has nothing like {} of group `{}`",
-                    file.display(),
+                    scene.source,
                     json!(lights),
                     group.name
                 );

@@ -1,10 +1,10 @@
-//! Checks of `scene`, `camera`, `sensor`, `render` and `outputs`.
+//! Checks of `camera`, `sensor`, `render` and `outputs`.
 
 use super::{Check, lens::Geometry};
 use crate::{
-    frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec, StopSpec},
+    frame::{CameraSpec, Output, RenderSpec, SensorSpec, StopSpec},
     ranges,
-    schema::{CameraFile, OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile, ShareFile},
+    schema::{CameraFile, OutputFile, Outputs, RenderFile, SensorFile, ShareFile},
     share::Share,
 };
 
@@ -14,20 +14,6 @@ pub(crate) const DEFAULT_MAX_SAMPLES: u32 = 8192;
 const MIN_NOISE_SAMPLES: u32 = 16;
 
 impl Check<'_> {
-    pub(super) fn scene(&mut self, scene: Option<&OrNone<SceneFile>>) -> Option<Option<SceneSpec>> {
-        let scene = match self.required("scene", scene, "give {file: …} or `none`")? {
-            OrNone::None(_) => return Some(None),
-            OrNone::Some(scene) => scene,
-        };
-        let file = self.required("scene.file", scene.file.as_deref(), "path of a .glb or .gltf file")?;
-        let lower = file.to_ascii_lowercase();
-        if !(lower.ends_with(".glb") || lower.ends_with(".gltf")) {
-            self.problem("scene.file", format!("\"{file}\" is not a .glb or .gltf file"));
-            return None;
-        }
-        Some(Some(SceneSpec { file: file.into() }))
-    }
-
     pub(super) fn camera(&mut self, camera: &CameraFile, datum_m: f64) -> Option<CameraSpec> {
         let altitude = self.range("camera.altitude_m", camera.altitude_m, ranges::CAMERA_ALTITUDE_M);
         let x = self.range("camera.position_m.0", camera.position_m[0], ranges::POSITION_M);
