@@ -27,12 +27,12 @@ fn lit(scene: &LoadedScene, lamps: Vec<Lamp>, beams: Vec<Beam>) -> Arc<LoadedSce
 }
 
 fn point(x: f32, y: f32, z: f32, intensity: [f32; 3]) -> Lamp {
-    Lamp { position: Vec3A::new(x, y, z), intensity, cone: None }
+    Lamp::even(Vec3A::new(x, y, z), intensity)
 }
 
 fn spot(x: f32, y: f32, z: f32, intensity: f32, axis: Vec3A) -> Lamp {
     let cone = Cone { axis: axis.normalize(), cos_inner: 0.95, cos_outer: 0.7 };
-    Lamp { cone: Some(cone), ..point(x, y, z, [intensity; 3]) }
+    Lamp::spot(Vec3A::new(x, y, z), [intensity; 3], cone)
 }
 
 /// White of the three basis colours at one wavelength: 1 within 0.3 %.

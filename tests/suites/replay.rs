@@ -60,7 +60,7 @@ fn replays_are_what_the_film_got() {
 
 #[test]
 fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
-    let lamp = Lamp { position: Vec3A::new(1.0, 4.0, -12.0), intensity: [300.0; 3], cone: None };
+    let lamp = Lamp::even(Vec3A::new(1.0, 4.0, -12.0), [300.0; 3]);
     let street = scenes::load("street_day.glb");
     let lights = PunctualLights { lamps: vec![lamp], beams: Vec::new() };
     let lit = Arc::new(LoadedScene { lights, ..(*street).clone() });
