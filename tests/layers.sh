@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 layer() {
   case $1 in
     fog-core) echo 0 ;;
-    fog-optics | fog-scene | fog-film | fog-plan | fog-denoise | fog-worlds) echo 1 ;;
+    fog-optics | fog-scene | fog-film | fog-sensor | fog-plan | fog-denoise | fog-worlds) echo 1 ;;
     fog-tracer | fog-dataset | fog-figures) echo 2 ;;
     fogbank) echo 3 ;;
     fog-cli) echo 4 ;;

@@ -25,7 +25,7 @@ pub(crate) fn assert_agree(
     let tracer = PathTracer::new(scene, &observer, settings);
     let wavelengths = Wavelengths::monochromatic(600.0);
     for (k, &(heading, pitch)) in rays.iter().enumerate() {
-        let ray = scenes::camera(1.7, heading, pitch, 2, 2, 1.0).ray(1.0, 1.0);
+        let ray = scenes::camera(1.7, heading, pitch, 2, 2, 1.0).ray(1.0, 1.0).expect("seen");
         let (fast, analog) = (0..64u64)
             .into_par_iter()
             .map(|chunk| {

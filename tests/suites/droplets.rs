@@ -22,7 +22,7 @@ fn colour(
     let observer = Observer::new();
     let settings = Settings { samples: paths, max_depth, wavelength_nm: nm, stop: None };
     let tracer = PathTracer::new(scene, &observer, settings);
-    let ray = scenes::camera(1.7, ray.0, ray.1, 2, 2, 1.0).ray(1.0, 1.0);
+    let ray = scenes::camera(1.7, ray.0, ray.1, 2, 2, 1.0).ray(1.0, 1.0).expect("seen");
     (0..64u64)
         .into_par_iter()
         .map(|chunk| {

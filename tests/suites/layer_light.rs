@@ -23,7 +23,7 @@ fn moments(fog: Medium, samples: u64) -> [Moments; 2] {
     let observer = Observer::new();
     let settings = Settings { samples, max_depth: None, wavelength_nm: Some(600.0), stop: None };
     let tracer = PathTracer::new(&scene, &observer, settings);
-    let ray = scenes::camera(2.0, 0.0, 3.0, 2, 2, 1.0).ray(1.0, 1.0);
+    let ray = scenes::camera(2.0, 0.0, 3.0, 2, 2, 1.0).ray(1.0, 1.0).expect("seen");
     let mut out = [Moments::default(); 2];
     for s in 0..samples {
         let mut rng = PathRng::new(5, 0, s);

@@ -65,7 +65,7 @@ fn rings(
     let mut sums = vec![[0.0; 4]; (0.5 * fov_deg / width_deg) as usize];
     for i in 0..frame.pixel_count() {
         let (x, y) = (i as u32 % pixels, i as u32 / pixels);
-        let direction = camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).direction;
+        let direction = camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).expect("seen").direction;
         let m = f64::from(0.5 * (direction - sun.direction).length_squared());
         let angle = 2.0 * math::f64::asin((0.5 * m).sqrt().min(1.0)).to_degrees();
         let from_centre = if towards_sun { angle } else { 180.0 - angle };

@@ -37,7 +37,7 @@ fn replays_are_what_the_film_got() {
         let tracer = PathTracer::new(&scene, &observer, settings);
         let frame = scenes::render(&scene, &camera, 1, wavelength_nm, 9);
         for i in 0..frame.pixel_count() {
-            let replay = tracer.replay(&camera, i, 9, 0);
+            let replay = tracer.replay(&camera, i, 9, 0).expect("seen");
             assert_eq!(replay.sample.direct, frame.direct[i], "{name}, pixel {i}");
             assert_eq!(replay.sample.airlight, frame.airlight[i], "{name}, pixel {i}");
             assert_eq!(replay.sample.value(), frame.image(i), "{name}, pixel {i}");
@@ -72,7 +72,7 @@ fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
     let frame = scenes::render(&scene, &camera, 1, None, 9);
     let mut near = 0;
     for i in 0..frame.pixel_count() {
-        let replay = tracer.replay(&camera, i, 9, 0);
+        let replay = tracer.replay(&camera, i, 9, 0).expect("seen");
         assert_eq!(
             (replay.sample.direct, replay.sample.airlight),
             (frame.direct[i], frame.airlight[i]),

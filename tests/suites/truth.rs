@@ -73,7 +73,7 @@ fn transmittance_is_the_integral_of_the_droplets() {
         for i in 0..camera.width as usize * camera.height as usize {
             let from_tau = math::f64::exp(-f64::from(t.tau[i]));
             assert!((f64::from(t.transmittance[i][1]) - from_tau).abs() < 1e-6, "exp(-tau), pixel {i}");
-            let ray = camera.ray((i % 24) as f64 + 0.5, (i / 24) as f64 + 0.5);
+            let ray = camera.ray((i % 24) as f64 + 0.5, (i / 24) as f64 + 0.5).expect("seen");
             let (y0, dy) = (f64::from(ray.origin.y), f64::from(ray.direction.y));
             // The part inside the layer, so that the quadrature meets no jump.
             let (a, b) = if dy == 0.0 {
@@ -115,7 +115,7 @@ fn depth_and_distance_meet_the_street() {
     assert_eq!(t.depth_m[at(360, 20)], f32::INFINITY);
     assert_eq!(t.distance_m[at(360, 20)], f32::INFINITY);
     for y in 300..400 {
-        let ray = camera.ray(300.5, y as f64 + 0.5);
+        let ray = camera.ray(300.5, y as f64 + 0.5).expect("seen");
         let want = 1.7 / -ray.direction.y;
         assert!((t.distance_m[at(300, y)] / want - 1.0).abs() < 1e-5, "row {y}");
         let along = ray.direction.dot(Vec3A::NEG_Z);

@@ -16,7 +16,7 @@ pub enum Channels {
     },
 }
 
-/// What is known without noise about each pixel-centre ray; row-major like the frame.
+/// What is known without noise about each pixel-centre ray; row-major like the frame. NaN where the lens sees nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Truth {
     /// Planar depth along the camera axis in metres; +inf for sky.

@@ -8,6 +8,7 @@ use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    sensor::ExposureSpec,
     share::Share,
     sky::{MoonSpec, SkySpec},
 };
@@ -259,8 +260,8 @@ pub struct SensorSpec {
     pub height_px: u32,
     /// Horizontal field of view in degrees, 0.1 to 170.
     pub horizontal_fov_deg: f64,
-    /// Factor on linear values before sRGB encoding, above 0.
-    pub exposure: f64,
+    /// Factor on linear values before sRGB encoding, or where it comes from.
+    pub exposure: ExposureSpec,
 }
 
 /// Light sources of a frame.

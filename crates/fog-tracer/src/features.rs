@@ -37,7 +37,8 @@ fn pixel(scene: &Scene, camera: &Camera, i: usize) -> (Rgb, [f32; 3]) {
     let (mut albedo, mut normal) = ([0.0f32; 3], Vec3A::ZERO);
     for k in 0..GRID * GRID {
         let inside = [k % GRID, k / GRID].map(|v| (f64::from(v) + 0.5) / f64::from(GRID));
-        let ray = camera.ray(corner[0] + inside[0], corner[1] + inside[1]);
+        // Where the lens sees nothing the features stay 0, like the picture.
+        let Some(ray) = camera.ray(corner[0] + inside[0], corner[1] + inside[1]) else { continue };
         let Some(hit) = scene.intersect(ray.origin, ray.direction, f32::INFINITY) else {
             albedo = albedo.map(|sum| sum + 1.0);
             continue;

@@ -140,6 +140,9 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// What the film gets where the lens sees nothing.
+    pub(crate) const BLACK: Self = Self { direct: [0.0; 3], airlight: [0.0; 3] };
+
     /// Both together.
     #[must_use]
     pub fn value(&self) -> Rgb {
@@ -172,8 +175,7 @@ impl PathTracer<'_> {
         for sample in samples {
             let Sample { direct, airlight } = if groups.is_empty() {
                 self.sample(camera, i, seed, sample)
-            } else {
-                let mut start = self.start(camera, i, seed, sample);
+            } else if let Some(mut start) = self.start(camera, i, seed, sample) {
                 light.clear();
                 let seen =
                     self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light);
@@ -183,6 +185,8 @@ impl PathTracer<'_> {
                     (0..3).for_each(|c| sum[c] += f64::from(rgb[c]));
                 }
                 finish(response.as_ref(), seen)
+            } else {
+                Sample::BLACK
             };
             if self.settings.wavelength_nm.is_some() {
                 film.add_mono(direct[0], airlight[0]);
@@ -196,13 +200,14 @@ impl PathTracer<'_> {
     #[inline]
     #[must_use]
     pub fn sample(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Sample {
-        let mut start = self.start(camera, i, seed, sample);
+        let Some(mut start) = self.start(camera, i, seed, sample) else { return Sample::BLACK };
         let seen = self.radiance(start.ray, &start.wavelengths, start.flight, &mut start.rng);
         finish(self.response(&start.wavelengths).as_ref(), seen)
     }
 
+    /// The beginning of one path; none where the lens sees nothing.
     #[inline]
-    pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Start {
+    pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Option<Start> {
         let (x, y) = (i % camera.width as usize, i / camera.width as usize);
         // The first seven dimensions are stratified over the pixel's samples, the rest a plain random stream.
         let first = stratified(seed, i as u64, sample);
@@ -212,13 +217,13 @@ impl PathTracer<'_> {
             Some(nm) => Wavelengths::monochromatic(nm),
             None => self.observer.sample_wavelengths(first.wavelength),
         };
-        Start {
+        Some(Start {
             image_point,
-            ray: camera.ray(image_point[0], image_point[1]),
+            ray: camera.ray(image_point[0], image_point[1])?,
             wavelengths,
             flight: first.flight,
             rng: PathRng::new(seed, i as u64, sample).with_first(first.turn, first.second_flight),
-        }
+        })
     }
 
     /// Linear sRGB that radiance 1 at each wavelength gives; none where one wavelength is rendered.

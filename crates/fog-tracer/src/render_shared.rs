@@ -86,7 +86,7 @@ impl Pass<'_> {
             for hero in 0..fogs {
                 // Paths of each fog are stratified among themselves.
                 let seed = if hero == 0 { self.seed } else { mix64(self.seed ^ hero as u64) };
-                let mut start = base.start(self.camera, i, seed, sample);
+                let Some(mut start) = base.start(self.camera, i, seed, sample) else { continue };
                 light.clear();
                 let (waves, flight, rng) = (&start.wavelengths, start.flight, &mut start.rng);
                 if fogs == 1 {

@@ -27,14 +27,14 @@ pub struct Replay {
 
 impl PathTracer<'_> {
     /// Traces sample `sample` of pixel `i` (row-major) of the frame with this seed, as the rendering does, and keeps the
-    /// steps.
+    /// steps. None where the lens sees nothing.
     #[must_use]
-    pub fn replay(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Replay {
-        let mut start = self.start(camera, i, seed, sample);
+    pub fn replay(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Option<Replay> {
+        let mut start = self.start(camera, i, seed, sample)?;
         let mut steps = Vec::new();
         let seen = self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut steps);
         let response = self.response(&start.wavelengths);
-        Replay {
+        Some(Replay {
             image_point: start.image_point,
             ray: start.ray,
             wavelengths: start.wavelengths,
@@ -42,6 +42,6 @@ impl PathTracer<'_> {
             radiance: seen.radiance + seen.glow,
             response,
             sample: finish(response.as_ref(), seen),
-        }
+        })
     }
 }

@@ -24,7 +24,10 @@ struct Row {
     tau: f32,
 }
 
-/// Depth, distance, transmittance and optical depth of every pixel; of a monochromatic frame the transmittance is that of
+/// A pixel whose centre the lens does not show.
+const UNSEEN: Row = Row { depth: f32::NAN, distance: f32::NAN, transmittance: [f32::NAN; 3], tau: f32::NAN };
+
+/// Depth, distance, transmittance and optical depth of every pixel, NaN where the lens sees nothing; of a monochromatic frame the transmittance is that of
 /// its wavelength.
 #[must_use]
 pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Truth {
@@ -43,7 +46,7 @@ pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Trut
 
 fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row {
     let (x, y) = (i % camera.width as usize, i / camera.width as usize);
-    let ray = camera.ray(x as f64 + 0.5, y as f64 + 0.5);
+    let Some(ray) = camera.ray(x as f64 + 0.5, y as f64 + 0.5) else { return UNSEEN };
     let hit = scene.intersect(ray.origin, ray.direction, f32::INFINITY);
     let distance = hit.map_or(f32::INFINITY, |h| h.t);
     let [r, g, b] = bands;
@@ -51,7 +54,7 @@ fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row
         medium.optical_depths_at(ray.origin, ray.direction, f64::from(distance), [r, g, b, TAU_NM])
     });
     Row {
-        depth: distance * ray.direction.dot(camera.pose.forward),
+        depth: camera.depth(&ray, distance),
         distance,
         transmittance: [0, 1, 2].map(|i| math::f64::exp(-depths[i]) as f32),
         tau: depths[3] as f32,

@@ -2,6 +2,7 @@
 
 use crate::denoise;
 use crate::error::Error;
+use crate::exposure;
 use crate::fog::Fog;
 use crate::lighting::{DistantLights, distant_lights, light_groups};
 use crate::record::record;
@@ -24,6 +25,8 @@ pub struct Rendered {
     pub record: serde_json::Value,
     /// Camera of the frame.
     pub camera: Camera,
+    /// Factor on the radiance whose product is 1 at white; in the record too.
+    pub exposure: f64,
     /// The picture without its noise, if the frame asks for it.
     pub denoised: Option<DenoisedPicture>,
 }
@@ -99,6 +102,8 @@ pub(crate) fn finish(
 ) -> Result<Rendered, Error> {
     let camera = camera(&spec.camera, &spec.sensor);
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
+    let exposure = exposure::factor(spec, &frame);
+    exposure::write(spec, exposure, &mut record);
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }
@@ -108,5 +113,5 @@ pub(crate) fn finish(
     let denoiser = resources.denoiser(spec)?;
     let denoised =
         denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
-    Ok(Rendered { frame, record, camera, denoised })
+    Ok(Rendered { frame, record, camera, exposure, denoised })
 }

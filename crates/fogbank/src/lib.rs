@@ -22,6 +22,7 @@ mod compare;
 mod denoise;
 mod droplets;
 mod error;
+mod exposure;
 mod fog;
 mod forecast;
 mod frame;

@@ -3,6 +3,7 @@
 use crate::CODE_DIGEST;
 use crate::denoise;
 use crate::fog::Fog;
+use fog_core::lens::Intrinsics;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
 use fog_scene::camera::Camera;
@@ -120,12 +121,14 @@ fn quaternion_json(camera: &Camera) -> Value {
 
 /// Intrinsics in OpenCV's convention: pixel centres at integer coordinates.
 fn intrinsics_json(camera: &Camera) -> Value {
-    let f = camera.focal_px();
+    let Some(Intrinsics { fx_px, fy_px, cx_px, cy_px }) = camera.lens.intrinsics() else {
+        return Value::Null;
+    };
     json!({
-        "fx_px": f,
-        "fy_px": f,
-        "cx_px": 0.5 * f64::from(camera.width) - 0.5,
-        "cy_px": 0.5 * f64::from(camera.height) - 0.5,
+        "fx_px": fx_px,
+        "fy_px": fy_px,
+        "cx_px": cx_px,
+        "cy_px": cy_px,
         "convention": "OpenCV: pixel centres at integer coordinates",
         "distortion": "none",
     })

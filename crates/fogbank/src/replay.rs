@@ -63,7 +63,8 @@ pub fn replay(
     let camera = camera(&spec.camera, &spec.sensor);
     let tracer = PathTracer::new(&scene, &resources.observer, settings(&spec));
     let i = y as usize * width as usize + x as usize;
-    let path = tracer.replay(&camera, i, spec.seed, number);
+    let unseen = || Error::UnknownPath(format!("the lens sees nothing at pixel {x},{y}, sample {number}"));
+    let path = tracer.replay(&camera, i, spec.seed, number).ok_or_else(unseen)?;
     Ok(Replayed { spec, scene, pixel, number, path })
 }
 

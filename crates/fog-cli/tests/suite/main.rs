@@ -24,6 +24,7 @@ mod pipes;
 mod records;
 mod replay;
 mod scene;
+mod sensor;
 mod share;
 mod skies;
 mod visibility;

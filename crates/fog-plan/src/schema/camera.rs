@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::exposure::ExposureFile;
 use crate::ranges;
 
 /// Pose of the camera.
@@ -47,14 +48,14 @@ pub(crate) struct SensorFile {
     /// Horizontal field of view in degrees.
     #[schemars(range(min = ranges::FOV_DEG.min, max = ranges::FOV_DEG.max))]
     pub(crate) horizontal_fov_deg: f64,
-    /// Factor on linear values before sRGB encoding.
-    #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::EXPOSURE.max))]
-    pub(crate) exposure: f64,
+    /// Factor on linear values before sRGB encoding, or where it comes from: `auto`, {percentile: …, target: …} or
+    /// {iso: …, shutter_s: …, f_number: …}.
+    pub(crate) exposure: ExposureFile,
 }
 
 impl Default for SensorFile {
     fn default() -> Self {
-        Self { width_px: 320, height_px: 180, horizontal_fov_deg: 60.0, exposure: 1.0 }
+        Self { width_px: 320, height_px: 180, horizontal_fov_deg: 60.0, exposure: ExposureFile::Factor(1.0) }
     }
 }
 

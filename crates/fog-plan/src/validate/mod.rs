@@ -1,6 +1,7 @@
 //! From the schema to a frame's content: ranges, required keys and rules between keys.
 
 mod droplets;
+mod exposure;
 mod fog;
 mod light_groups;
 mod lighting;

@@ -50,7 +50,7 @@ impl Check<'_> {
         let width = self.whole("sensor.width_px", sensor.width_px, ranges::IMAGE_PX);
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
         let fov = self.range("sensor.horizontal_fov_deg", sensor.horizontal_fov_deg, ranges::FOV_DEG);
-        let exposure = self.range("sensor.exposure", sensor.exposure, ranges::EXPOSURE);
+        let exposure = self.exposure(&sensor.exposure);
         Some(SensorSpec {
             width_px: width?,
             height_px: height?,

@@ -1,6 +1,7 @@
 //! Every kind of mistake, with the exact message.
 
 mod lights;
+mod sensor;
 
 /// The first five lines; tests add the rest, from line 6.
 const HEAD: &str = "version: 1\nname: t\nscene: {file: a.glb}\nlighting: day\nrender: {samples: 4}\n";

@@ -1,7 +1,4 @@
-//! Pinhole cameras.
-//!
-//! Poses are camera→world in OpenCV axes (x right, y down, z forward). Image coordinates are continuous with the origin
-//! at the top left corner of the top left pixel, so a pixel's centre lies at + 0.5.
+//! Where a camera stands and how it is turned.
 
 use fog_core::math;
 use fog_core::{Mat4, Vec3A};
@@ -46,51 +43,19 @@ impl Pose {
             self.position.extend(1.0),
         )
     }
-}
 
-/// A pinhole camera with square pixels and its principal point in the middle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
-    /// Where it stands and looks.
-    pub pose: Pose,
-    /// Image width in pixels.
-    pub width: u32,
-    /// Image height in pixels.
-    pub height: u32,
-    focal_px: f64,
-}
-
-/// A ray with a direction of unit length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Start.
-    pub origin: Vec3A,
-    /// Unit direction of travel.
-    pub direction: Vec3A,
-}
-
-impl Camera {
-    /// Camera with `horizontal_fov_deg` in (0, 180) across the image's width.
-    #[must_use]
-    pub fn new(pose: Pose, width: u32, height: u32, horizontal_fov_deg: f64) -> Self {
-        let half = math::f64::tan((0.5 * horizontal_fov_deg).to_radians());
-        Self { pose, width, height, focal_px: 0.5 * f64::from(width) / half }
-    }
-
-    /// Focal length in pixels.
-    #[must_use]
-    pub fn focal_px(&self) -> f64 {
-        self.focal_px
-    }
-
-    /// Ray through the image point (x, y) in pixels from the top left corner.
+    /// A direction in camera axes (x right, y down, z forward) as one of the world, of the same length.
     #[inline]
     #[must_use]
-    pub fn ray(&self, x: f64, y: f64) -> Ray {
-        let u = ((x - 0.5 * f64::from(self.width)) / self.focal_px) as f32;
-        let v = ((y - 0.5 * f64::from(self.height)) / self.focal_px) as f32;
-        let p = &self.pose;
-        Ray { origin: p.position, direction: (u * p.right + v * p.down + p.forward).normalize() }
+    pub fn to_world(&self, [x, y, z]: [f64; 3]) -> Vec3A {
+        x as f32 * self.right + y as f32 * self.down + z as f32 * self.forward
+    }
+
+    /// A world point in camera axes, in metres from the camera.
+    #[must_use]
+    pub fn to_camera(&self, point: Vec3A) -> [f64; 3] {
+        let from_here = point.as_dvec3() - self.position.as_dvec3();
+        [self.right, self.down, self.forward].map(|axis| from_here.dot(axis.as_dvec3()))
     }
 }
 
@@ -118,12 +83,10 @@ mod tests {
     }
 
     #[test]
-    fn field_of_view_spans_the_width() {
-        let c = Camera::new(Pose::new(Vec3A::ZERO, 0.0, 0.0, 0.0), 320, 180, 60.0);
-        let left = c.ray(0.0, 90.0).direction;
-        let right = c.ray(320.0, 90.0).direction;
-        assert!((left.dot(right) - 0.5).abs() < 1e-6);
-        assert!(left.x < 0.0 && c.ray(160.0, 0.0).direction.y > 0.0);
-        close(c.ray(160.0, 90.0).direction, -Vec3A::Z);
+    fn camera_axes_and_the_world_are_inverse() {
+        let pose = Pose::new(Vec3A::new(3.0, 2.0, -7.0), 33.0, -20.0, 10.0);
+        let point = pose.position + pose.to_world([0.3, -0.2, 4.0]);
+        let back = pose.to_camera(point);
+        assert!(back.iter().zip([0.3, -0.2, 4.0]).all(|(a, b)| (a - b).abs() < 2e-6), "{back:?}");
     }
 }
