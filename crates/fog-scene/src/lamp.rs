@@ -120,7 +120,7 @@ impl Lamp {
         }
     }
 
-    /// Unit vector along the axis, away from the lamp; `None` if it shines alike all around.
+    /// Unit vector along the axis of a cone, or towards the middle of a measured distribution; `None` if it shines alike all around.
     #[must_use]
     pub fn axis(&self) -> Option<Vec3A> {
         match &self.pattern {
@@ -140,7 +140,7 @@ impl Lamp {
 
 impl Measured {
     fn axis(&self) -> Vec3A {
-        self.lamp_from_world.transpose() * Vec3A::NEG_Z
+        self.lamp_from_world.transpose() * self.photometry.reach().axis
     }
 
     fn share(&self, away: Vec3A) -> f32 {
@@ -162,9 +162,7 @@ impl Light for Lamp {
             Pattern::Cone(cone) => {
                 Reach { axis: cone.axis, angle: math::f32::acos(cone.cos_outer.clamp(-1.0, 1.0)) }
             }
-            Pattern::Measured(measured) => {
-                Reach { axis: measured.axis(), angle: measured.photometry.reach_deg().to_radians() as f32 }
-            }
+            Pattern::Measured(measured) => Reach { axis: measured.axis(), ..measured.photometry.reach() },
         };
         Bound { lower: self.position, upper: self.position, strength: f64::from(self.strength()), reach }
     }

@@ -46,7 +46,7 @@ pub struct Bound {
 }
 
 /// A cone of directions.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// Its axis, a unit vector.
     pub axis: Vec3A,

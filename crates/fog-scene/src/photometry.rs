@@ -4,7 +4,9 @@
 //! as for a spot of glTF is −Z of its node, and 180° against it; the horizontal angle C is 0 towards the node's +X, 90°
 //! towards its +Y, counterclockwise for who looks along the axis.
 
+use crate::light_tree::Reach;
 use fog_core::{Vec3A, math};
+use glam::DVec3;
 
 /// Most angles of either kind.
 pub const MAX_ANGLES: usize = 4096;
@@ -20,6 +22,7 @@ pub struct Photometry {
     /// Horizontal angle by horizontal angle.
     candela: Vec<f32>,
     greatest: f32,
+    reach: Reach,
 }
 
 impl Photometry {
@@ -45,7 +48,8 @@ impl Photometry {
         let candela: Vec<f32> = rows.collect();
         let greatest = candela.iter().fold(0.0f32, |a, &b| a.max(b));
         let horizontal_deg = order.iter().map(|&(angle, _)| angle).collect();
-        Ok(Self { vertical_deg, horizontal_deg, candela, greatest })
+        let lamp = Self { vertical_deg, horizontal_deg, candela, greatest, reach: Reach::ALL };
+        Ok(Self { reach: lamp.find_reach(), ..lamp })
     }
 
     /// The same distribution with all intensities times a factor, 0 or more.
@@ -62,15 +66,10 @@ impl Photometry {
         self.greatest
     }
 
-    /// Largest vertical angle in degrees up to which it shines.
+    /// The middle of the light, a unit vector of the lamp's own axes, and a cone around it that holds all of it.
     #[must_use]
-    pub fn reach_deg(&self) -> f64 {
-        let n = self.vertical_deg.len();
-        let dark = |k: usize| self.candela.iter().skip(k).step_by(n).all(|&c| c == 0.0);
-        match (0..n).rev().find(|&k| !dark(k)) {
-            Some(last) => self.vertical_deg[(last + 1).min(n - 1)],
-            None => 0.0,
-        }
+    pub fn reach(&self) -> Reach {
+        self.reach
     }
 
     /// Intensity in cd towards a unit vector of the lamp's own axes.
@@ -129,6 +128,78 @@ impl Photometry {
             })
             .sum()
     }
+}
+
+impl Photometry {
+    fn find_reach(&self) -> Reach {
+        let Some(axis) = self.middle() else { return Reach::ALL };
+        let mut angle = 0.0f64;
+        for (vertical, horizontal) in self.lit_cells() {
+            // Nine points of the cell, and a sixth of its diagonal for what lies between them.
+            let size = [vertical, horizontal].map(|[a, b]| b - a);
+            // Around its axis a lamp of one plane has nothing between them.
+            let even = size[1] == 0.0;
+            let across = if even { 0.0 } else { (size[0] * size[0] + size[1] * size[1]).sqrt() / 6.0 };
+            for (s, t) in (0..9).map(|k| (0.5 * f64::from(k / 3), 0.5 * f64::from(k % 3))) {
+                let place = direction(vertical[0] + s * size[0], horizontal[0] + t * size[1]);
+                let from_axis = math::f64::acos(place.dot(axis).clamp(-1.0, 1.0)).to_degrees();
+                angle = angle.max(from_axis + across);
+            }
+        }
+        if angle >= 180.0 {
+            return Reach::ALL;
+        }
+        Reach { axis: axis.as_vec3a(), angle: angle.to_radians() as f32 }
+    }
+
+    /// Mean direction of the light; `None` where there is none.
+    fn middle(&self) -> Option<DVec3> {
+        let n = self.vertical_deg.len();
+        if self.horizontal_deg.len() == 1 {
+            let forward = |k: usize| {
+                let (sin, cos) = sin_cos(self.vertical_deg[k]);
+                f64::from(self.candela[k]) * sin.max(1e-3) * cos
+            };
+            let sum: f64 = (0..n).map(forward).sum();
+            return Some(if sum >= 0.0 { DVec3::NEG_Z } else { DVec3::Z });
+        }
+        let planes = self.horizontal_deg.len();
+        let mut sum = DVec3::ZERO;
+        for j in 0..planes {
+            let width =
+                self.horizontal_deg[(j + 1).min(planes - 1)] - self.horizontal_deg[j.saturating_sub(1)];
+            for k in 0..n {
+                let height = self.vertical_deg[(k + 1).min(n - 1)] - self.vertical_deg[k.saturating_sub(1)];
+                let weight = f64::from(self.candela[j * n + k]) * width * height.max(1e-3);
+                sum += direction(self.vertical_deg[k], self.horizontal_deg[j]) * weight;
+            }
+        }
+        sum.try_normalize()
+    }
+
+    /// Vertical and horizontal ends in degrees of the cells between measurements that are not dark.
+    fn lit_cells(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
+        let (n, planes) = (self.vertical_deg.len(), self.horizontal_deg.len());
+        let ends = |angles: &[f64], k: usize| [angles[k], angles[(k + 1).min(angles.len() - 1)]];
+        (0..planes.max(2) - 1).flat_map(move |j| {
+            (0..n.max(2) - 1).filter_map(move |k| {
+                let at = |j: usize, k: usize| self.candela[j.min(planes - 1) * n + k.min(n - 1)];
+                let lit = at(j, k) + at(j, k + 1) + at(j + 1, k) + at(j + 1, k + 1) > 0.0;
+                lit.then(|| (ends(&self.vertical_deg, k), ends(&self.horizontal_deg, j)))
+            })
+        })
+    }
+}
+
+/// Unit vector of the lamp's own axes at angles in degrees.
+fn direction(vertical_deg: f64, horizontal_deg: f64) -> DVec3 {
+    let ((sv, cv), (sh, ch)) = (sin_cos(vertical_deg), sin_cos(horizontal_deg));
+    DVec3::new(sv * ch, sv * sh, -cv)
+}
+
+fn sin_cos(deg: f64) -> (f64, f64) {
+    let angle = deg.to_radians();
+    (math::f64::sin(angle), math::f64::cos(angle))
 }
 
 /// Refuses tables that are empty or too large.
@@ -251,7 +322,8 @@ mod tests {
         })
         .unwrap();
         assert_eq!(beam.greatest_candela(), 7.0);
-        assert_eq!(beam.reach_deg(), 120.0);
+        let reach = beam.reach();
+        assert!(reach.axis.x > 0.9 && reach.angle > 90.0f32.to_radians(), "{reach:?}");
         assert!((beam.candela_along(Vec3A::X) - 7.0).abs() < 1e-4);
         for dark in [Vec3A::Y, Vec3A::NEG_X, Vec3A::NEG_Z, Vec3A::Z] {
             assert!(beam.candela_along(dark) < 1e-4, "{dark}");
@@ -263,6 +335,30 @@ mod tests {
         assert!((beam.candela_along(Vec3A::new(c, 0.0, s)) - 3.5).abs() < 1e-3);
         let (s, c) = sin_cos(45.0);
         assert!((beam.candela_along(Vec3A::new(c, s, 0.0)) - 3.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_reach_holds_all_light() {
+        let narrow = Photometry::new(
+            steps(180, 2),
+            &[0.0, 5.0, 10.0, 180.0],
+            &(0..4 * 91)
+                .map(|i| if (45..=48).contains(&(i % 91)) && i / 91 < 2 { 9.0 } else { 0.0 })
+                .collect::<Vec<_>>(),
+        )
+        .unwrap();
+        // 10° aside, from 88 to 98°: level and forward along +X.
+        let reach = narrow.reach();
+        assert!(reach.axis.x > 0.99 && reach.angle < 16.0f32.to_radians(), "{reach:?}");
+        let mut rng = fog_core::random::PathRng::new(1, 2, 3);
+        for _ in 0..20_000 {
+            let away = fog_core::warp::uniform_sphere(rng.uniform2());
+            let inside = away.dot(reach.axis) >= math::f32::cos(reach.angle);
+            assert!(inside || narrow.candela_along(away) == 0.0, "{away}");
+        }
+        let down = Photometry::new(vec![0.0, 60.0, 61.0, 180.0], &[0.0], &[5.0, 5.0, 0.0, 0.0]).unwrap();
+        assert_eq!(down.reach().axis, Vec3A::NEG_Z);
+        assert!((60.9..62.0).contains(&down.reach().angle.to_degrees()));
     }
 
     #[test]

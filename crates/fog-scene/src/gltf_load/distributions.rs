@@ -2,8 +2,9 @@
 //!
 //! A light or the node that it hangs on has `"ies": "street.ies"`, a URI like that of an image; the node's counts before the
 //! light's. Or the light has `"photometry": {"vertical_deg": […], "horizontal_deg": […], "candela": […]}`, with the
-//! intensities of all vertical angles of the first horizontal one, then of the next. Either gives the whole intensity: the
-//! light's own counts no more, and its colour is the hue alone.
+//! intensities of all vertical angles of the first horizontal one, then of the next. With `"pole": "down"` its vertical angles
+//! are counted from −Y of the node and its horizontal ones from −Z, as suits beams along −Z: 90° and 0 are the axis of a spot.
+//! Either gives the whole intensity: the light's own counts no more, and its colour is the hue alone.
 
 use super::files::Files;
 use super::nodes::extra;
@@ -52,6 +53,14 @@ impl<'a> Distributions<'a> {
         }
         let Some(table) = extra(light.extras(), "photometry") else { return Ok(None) };
         let known = self.by_light.get(&light.index()).map(Arc::clone);
+        let pole = match table.get("pole").map(|pole| (pole.as_str(), pole)) {
+            None | Some((Some("axis"), _)) => Mat3A::IDENTITY,
+            // Columns: where +X, +Y and +Z of the node are in the table's axes.
+            Some((Some("down"), _)) => Mat3A::from_cols(Vec3A::NEG_Y, Vec3A::Z, Vec3A::NEG_X),
+            Some((_, other)) => {
+                return Err(wrong(format!("extras.photometry.pole is {other}; valid: \"axis\" or \"down\"")));
+            }
+        };
         let photometry = match known {
             Some(known) => known,
             None => {
@@ -61,7 +70,7 @@ impl<'a> Distributions<'a> {
                 read
             }
         };
-        Ok(Some((Measured { photometry, lamp_from_world: lamp_from_world()? }, 1.0)))
+        Ok(Some((Measured { photometry, lamp_from_world: pole * lamp_from_world()? }, 1.0)))
     }
 
     fn file(&mut self, uri: &str) -> Result<&(IesFile, Arc<Photometry>), SceneErrorKind> {
