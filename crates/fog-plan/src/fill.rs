@@ -6,12 +6,13 @@ use serde::Serialize;
 use crate::{
     node::{Entry, Node, Value},
     origin::Origin,
+    presets::is_over_preset,
     schema::{
         AEROSOL_OPTICAL_DEPTH, CameraFile, DEFAULT_SEED, FogFile, GROUND_ALBEDO, LightingFile, LightingMap,
         NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
         VerticalFile,
     },
-    validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
+    validate::{DEFAULT_ALBEDO, DEFAULT_FOV_DEG, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
 
 /// Fills in the defaults that do not depend on other keys.
@@ -50,7 +51,9 @@ pub(crate) fn fill_model(root: &mut Node) {
 
 /// Fills in the keys of a clear sky. Not when an axis changes the model.
 pub(crate) fn fill_sky(root: &mut Node) {
-    let Some(lighting) = root.child_mut("lighting") else { return };
+    let Some(lighting) = root.child_mut("lighting").filter(|lighting| !is_over_preset(lighting)) else {
+        return;
+    };
     let Some(sky) = lighting.child_mut("sky") else { return };
     let Some(Value::Text(model)) = sky.child("model").map(|node| node.value.clone()) else { return };
     if model == "clear" {
@@ -61,6 +64,15 @@ pub(crate) fn fill_sky(root: &mut Node) {
     put(sky, "ground_albedo", &GROUND_ALBEDO);
 }
 
+/// Fills in the field of view of a pinhole camera without intrinsics. Not when an axis changes lens or intrinsics.
+pub(crate) fn fill_fov(root: &mut Node) {
+    let Some(sensor) = root.child_mut("sensor") else { return };
+    let pinhole = sensor.child("lens").is_none_or(|lens| lens.value == Value::Text("pinhole".to_owned()));
+    if pinhole && sensor.child("intrinsics").is_none() && sensor.child("horizontal_fov_deg").is_none() {
+        add(sensor, "horizontal_fov_deg", &DEFAULT_FOV_DEG.into());
+    }
+}
+
 fn fill_fog(fog: &mut Node) {
     merge(fog, &FogFile::default());
     if let Some(patchiness) = fog.child_mut("patchiness") {
@@ -69,6 +81,10 @@ fn fill_fog(fog: &mut Node) {
 }
 
 fn fill_lighting(lighting: &mut Node) {
+    // Defaults would hide what the preset says.
+    if is_over_preset(lighting) {
+        return;
+    }
     merge(lighting, &LightingMap::default());
     if let Some(sun) = lighting.child_mut("sun") {
         merge(sun, &SunFile::default());

@@ -4,8 +4,8 @@
 //! into a [`Plan`], which makes each [`FrameSpec`] from its index. A mistake is reported with the place where it was
 //! written: every value is kept with its line and column until the frame is checked.
 //!
-//! Data path: text → `yaml` → tree of `node`s → `fill` (defaults) → `set` (`--set`, axes) → `read` and `de` (types of
-//! `schema`) → `validate` → [`FrameSpec`].
+//! Data path: text → `yaml` → tree of `node`s → `include` (files under it, by `merge`) → `fill` (defaults) → `set` (`--set`,
+//! axes) → `presets` → `read` and `de` (types of `schema`) → `validate` → [`FrameSpec`].
 
 mod axis;
 mod canonical;
@@ -16,15 +16,20 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod filter;
 mod fog_sources;
 mod frame;
 mod identity;
+mod include;
+mod lens;
 mod light_groups;
 mod load;
+mod merge;
 mod node;
 mod origin;
 mod patchiness;
 mod plan;
+mod presets;
 mod ranges;
 mod read;
 mod schema;
@@ -39,10 +44,12 @@ mod yaml;
 
 pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
+pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use lens::{IntrinsicsSpec, LensSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
