@@ -58,7 +58,7 @@ impl IesFile {
         let second = numbers.number("the ballast-lamp photometric factor")?;
         numbers.number("the input watts")?;
         let factor = if numbers.second_factor { second } else { 1.0 } * ballast * multiplier;
-        if !(factor >= 0.0) {
+        if factor.is_nan() || factor < 0.0 {
             return Err(numbers.error(format!("the intensities' factor is {factor}; valid: 0 or more")));
         }
 
@@ -82,7 +82,7 @@ impl IesFile {
             None => last,
             Some(0) => self.tilt[0][1],
             Some(k) => {
-                let ([a, f], [b, g]) = (self.tilt[k - 1].into(), self.tilt[k].into());
+                let ([a, f], [b, g]) = (self.tilt[k - 1], self.tilt[k]);
                 f + (g - f) * (tilt_deg - a) / (b - a)
             }
         }
