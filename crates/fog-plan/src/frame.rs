@@ -12,6 +12,7 @@ use crate::{
     patchiness::PatchinessSpec,
     path::PathSpec,
     rig::RigSpec,
+    scene::SceneSpec,
     sensor::ExposureSpec,
     share::Share,
     sky::{MoonSpec, SkySpec},
@@ -66,13 +67,6 @@ fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) ->
         map.serialize_entry(path, value)?;
     }
     map.end()
-}
-
-/// A scene file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SceneSpec {
-    /// Path as written in the configuration (`.glb` or `.gltf`), relative to the current folder.
-    pub file: PathBuf,
 }
 
 /// The fog of a frame.

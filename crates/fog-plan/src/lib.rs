@@ -16,6 +16,7 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod filter;
 mod fog_sources;
 mod frame;
 mod identity;
@@ -34,6 +35,7 @@ mod presets;
 mod ranges;
 mod read;
 mod rig;
+mod scene;
 mod schema;
 mod sensor;
 mod set;
@@ -46,9 +48,10 @@ mod yaml;
 
 pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
+pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
+    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
@@ -58,6 +61,7 @@ pub use patchiness::PatchinessSpec;
 pub use path::{ApproachSpec, NextSpec, PathSpec};
 pub use plan::{AxisSummary, Plan};
 pub use rig::{PoseSpec, RigSpec};
+pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
 pub use sensor::ExposureSpec;
 pub use share::Share;

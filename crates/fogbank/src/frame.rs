@@ -78,7 +78,7 @@ pub(crate) fn settings(spec: &FrameSpec) -> Settings {
 /// # Errors
 /// If the scene, the fog or the lights cannot be had.
 pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<Fog>), Error> {
-    let loaded = resources.scene(spec.scene.as_ref().map(|s| s.file.as_path()))?;
+    let loaded = resources.scene(spec.scene.as_ref())?;
     let fog = Fog::new(&spec.fog, resources)?;
     let DistantLights { environment, sky, sun } = distant_lights(&spec.lighting, resources)?;
     let medium = fog.as_ref().map(|f| f.medium.clone());
@@ -127,6 +127,9 @@ pub(crate) fn finish(
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     let exposure = exposure::factor(spec, &frame);
     exposure::write(spec, exposure, &mut record);
+    if let Some(hash) = spec.scene.as_ref().and_then(|scene| resources.scene_hash(scene)) {
+        record["scene"]["blake3"] = hash.into();
+    }
     if let Some(hash) = resources.surroundings().hash(&spec.lighting) {
         record["lighting"]["environment"]["blake3"] = hash.into();
     }

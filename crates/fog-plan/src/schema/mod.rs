@@ -12,6 +12,7 @@ mod or_none;
 mod patchiness;
 mod path;
 mod phase;
+mod scene;
 mod sky;
 mod sweep;
 
@@ -35,12 +36,11 @@ pub(crate) use path::{
     RigCameraFile, ShutterFile,
 };
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
 };
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
-
-use or_none::Example;
 
 /// A Fogbank configuration: one document that describes a frame, and optionally axes that override parts of it, frame
 /// by frame.
@@ -112,19 +112,6 @@ impl Default for Outputs {
     fn default() -> Self {
         Self(OutputFile::DEFAULT.to_vec())
     }
-}
-
-/// A scene file.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
-#[serde(default, deny_unknown_fields)]
-#[schemars(rename = "Scene")]
-pub(crate) struct SceneFile {
-    /// Path of a glTF scene (`.glb` or `.gltf`), relative to the current folder.
-    pub(crate) file: Option<String>,
-}
-
-impl Example for SceneFile {
-    const EXAMPLE: &'static str = "{file: scenes/street.glb}";
 }
 
 /// The JSON Schema (draft 2020-12) of a configuration file, for editors.

@@ -26,7 +26,7 @@ impl Check<'_> {
                 let speed = file.speed_m_s.unwrap_or(SPEED_M_S);
                 let speed = self.range("path.glide_slope.speed_m_s", speed, ranges::SPEED_M_S);
                 let angle_deg = approach.map_or(ANGLE_DEG, |a| a.angle_deg);
-                let distances = self.distances(file, speed, angle_deg);
+                let distances = self.approach_distances(file, speed, angle_deg);
                 Some(glide(&approach?, &distances?, speed?))
             }
         }
@@ -85,7 +85,12 @@ impl Check<'_> {
     }
 
     /// Distances from the aiming point, falling.
-    fn distances(&mut self, file: &GlideSlopeFile, speed: Option<f64>, angle_deg: f64) -> Option<Vec<f64>> {
+    fn approach_distances(
+        &mut self,
+        file: &GlideSlopeFile,
+        speed: Option<f64>,
+        angle_deg: f64,
+    ) -> Option<Vec<f64>> {
         let why = "horizontal distance from the aiming point";
         let from = self.needed("path.glide_slope.from_m", file.from_m, ranges::ALONG_TRACK_M, why);
         let to = self.needed("path.glide_slope.to_m", file.to_m, ranges::ALONG_TRACK_M, why);

@@ -10,6 +10,7 @@ mod lighting;
 mod patchiness;
 mod path;
 mod pose;
+mod scene;
 mod sky;
 mod view;
 
@@ -25,12 +26,13 @@ use pose::View;
 
 use crate::{
     error::{Problem, Problems},
-    frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SceneSpec, SensorSpec},
+    frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SensorSpec},
     node::{Entry, Node, Value},
     path::{CsvFiles, Path, PathSpec},
     ranges::Range,
     read::read,
     rig::RigSpec,
+    scene::SceneSpec,
     schema::ConfigFile,
     words::did_you_mean,
 };
@@ -137,6 +139,13 @@ impl Check<'_> {
     /// Reports `message` about the key at `path`.
     fn problem(&mut self, path: &str, message: impl Into<String>) {
         self.problems.add(Problem::new(self.tree.origin_of(path), path, message));
+    }
+
+    /// Reports a key of `section` that belongs to other values of its key `selector` (with their names) than `found`.
+    fn belongs(&mut self, section: &str, key: &str, (selector, owners): (&str, &[&str]), found: &str) {
+        let plural = if owners.len() == 1 { "" } else { "s" };
+        let message = format!("`{key}` belongs to {selector}{plural} {}, not {found}", owners.join(", "));
+        self.problem(&format!("{section}.{key}"), message);
     }
 
     /// `value`, if the range contains it.

@@ -1,11 +1,11 @@
-//! Checks of `scene`, `sensor`, `render` and `outputs`.
+//! Checks of `sensor`, `render` and `outputs`.
 
 use super::{Check, lens::Geometry};
 use crate::{
-    frame::{Output, RenderSpec, SceneSpec, SensorSpec, StopSpec},
+    frame::{Output, RenderSpec, SensorSpec, StopSpec},
     lens::ShutterSpec,
     ranges,
-    schema::{OrNone, OutputFile, Outputs, RenderFile, SceneFile, SensorFile, ShareFile, ShutterFile},
+    schema::{OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile},
     share::Share,
 };
 
@@ -15,20 +15,6 @@ pub(crate) const DEFAULT_MAX_SAMPLES: u32 = 8192;
 const MIN_NOISE_SAMPLES: u32 = 16;
 
 impl Check<'_> {
-    pub(super) fn scene(&mut self, scene: Option<&OrNone<SceneFile>>) -> Option<Option<SceneSpec>> {
-        let scene = match self.required("scene", scene, "give {file: …} or `none`")? {
-            OrNone::None(_) => return Some(None),
-            OrNone::Some(scene) => scene,
-        };
-        let file = self.required("scene.file", scene.file.as_deref(), "path of a .glb or .gltf file")?;
-        let lower = file.to_ascii_lowercase();
-        if !(lower.ends_with(".glb") || lower.ends_with(".gltf")) {
-            self.problem("scene.file", format!("\"{file}\" is not a .glb or .gltf file"));
-            return None;
-        }
-        Some(Some(SceneSpec { file: file.into() }))
-    }
-
     pub(super) fn sensor(&mut self, sensor: &SensorFile) -> Option<SensorSpec> {
         let width = self.whole("sensor.width_px", sensor.width_px, ranges::IMAGE_PX);
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);

@@ -3,6 +3,7 @@
 mod cameras;
 mod includes;
 mod lights;
+mod scenes;
 mod sensor;
 
 /// The first five lines; tests add the rest, from line 6.
@@ -222,7 +223,7 @@ fn missing_keys() {
         [
             "configs/x.yaml:1:1: version: missing; write `version: 1`",
             "configs/x.yaml:1:1: name: missing; give the data set a name, such as `name: quickstart`",
-            "configs/x.yaml:1:1: scene: missing; give {file: …} or `none`",
+            "configs/x.yaml:1:1: scene: missing; give {file: …}, {generate: …} or `none`",
             "configs/x.yaml:1:1: fog: missing; give `none` or a map such as {model: advection, height_m: 180}",
         ]
     );
