@@ -13,7 +13,10 @@ use crate::{ranges, rig::PoseSpec};
 
 /// CSV files read so far: each once, so that all frames see one content.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct CsvFiles(Arc<Mutex<HashMap<PathBuf, Result<Arc<Path>, String>>>>);
+pub(crate) struct CsvFiles(Arc<Mutex<HashMap<PathBuf, Read>>>);
+
+/// The path in a file, or why there is none.
+type Read = Result<Arc<Path>, String>;
 
 const POSITION: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 const ANGLES: [&str; 3] = ["heading_deg", "pitch_deg", "roll_deg"];

@@ -40,7 +40,7 @@ impl Check<'_> {
                 ("rate_hz", file.rate_hz.is_some()),
                 ("look", file.look.is_some()),
             ];
-            for (key, _) in stray.iter().filter(|(_, is)| *is) {
+            if let Some((key, _)) = stray.iter().find(|(_, is)| *is) {
                 self.problem(&format!("path.{key}"), format!("belongs to waypoints, not to {}", given[0]));
                 return None;
             }
