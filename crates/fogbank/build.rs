@@ -1,4 +1,5 @@
-//! Digest of the code and data that a frame depends on, recorded in every data set: sources, lock file and tables.
+//! Digest of the code and data that a frame depends on, recorded in every data set: sources, lock file, tables and
+//! lighting presets.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ fn collect(dir: &Path, files: &mut Vec<PathBuf>) {
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut files = vec![root.join("Cargo.lock"), root.join("Cargo.toml")];
-    for dir in ["crates", "tables"] {
+    for dir in ["crates", "tables", "configs/lighting"] {
         println!("cargo:rerun-if-changed={}", root.join(dir).display());
         collect(&root.join(dir), &mut files);
     }

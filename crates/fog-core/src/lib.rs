@@ -13,6 +13,7 @@ pub mod delta_e;
 pub mod diameter_choice;
 pub mod distribution_2d;
 pub mod droplet_table;
+pub mod lens;
 pub mod math;
 pub mod moments;
 pub mod optics_table;

@@ -237,9 +237,10 @@ impl Steps {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::origin::Source;
 
     fn values(text: &str) -> Result<Vec<String>, String> {
-        let node = crate::yaml::parse(text, &"c.yaml".into()).unwrap();
+        let node = crate::yaml::parse(text, &Source::named("c.yaml")).unwrap();
         let values =
             read_values(&node).map_err(|(problem, inner)| format!("{inner}: {}", problem.message))?;
         Ok(values.short(100))
@@ -256,7 +257,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_stay_whole() {
-        let node = crate::yaml::parse("{from: 16, to: 64, step: 16}", &"c.yaml".into()).unwrap();
+        let node = crate::yaml::parse("{from: 16, to: 64, step: 16}", &Source::named("c.yaml")).unwrap();
         let values = read_values(&node).unwrap();
         assert_eq!(values.at(2).value, Value::Int(48));
     }

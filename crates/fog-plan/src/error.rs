@@ -8,7 +8,8 @@ use crate::origin::Origin;
 
 /// One mistake: where it was written, which key it concerns, and what is wrong.
 ///
-/// Its `Display` is the whole message: `configs/x.yaml:3:11: camera.altitude_m: expected a number (metres), …`.
+/// Its `Display` is the whole message: `configs/x.yaml:3:11: camera.altitude_m: expected a number (metres), …`; after it come
+/// the places, if any, where one file included the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Where the offending key or value was written.
@@ -27,11 +28,11 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.path.is_empty() {
-            write!(f, "{}: {}", self.origin, self.message)
-        } else {
-            write!(f, "{}: {}: {}", self.origin, self.path, self.message)
+        write!(f, "{}: ", self.origin)?;
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
         }
+        write!(f, "{}{}", self.message, self.origin.chain())
     }
 }
 

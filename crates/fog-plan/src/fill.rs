@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::{
     node::{Entry, Node, Value},
     origin::Origin,
+    presets::is_over_preset,
     schema::{
         AEROSOL_OPTICAL_DEPTH, CameraFile, DEFAULT_SEED, FogFile, GROUND_ALBEDO, LightingFile, LightingMap,
         NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
@@ -50,7 +51,9 @@ pub(crate) fn fill_model(root: &mut Node) {
 
 /// Fills in the keys of a clear sky. Not when an axis changes the model.
 pub(crate) fn fill_sky(root: &mut Node) {
-    let Some(lighting) = root.child_mut("lighting") else { return };
+    let Some(lighting) = root.child_mut("lighting").filter(|lighting| !is_over_preset(lighting)) else {
+        return;
+    };
     let Some(sky) = lighting.child_mut("sky") else { return };
     let Some(Value::Text(model)) = sky.child("model").map(|node| node.value.clone()) else { return };
     if model == "clear" {
@@ -69,6 +72,10 @@ fn fill_fog(fog: &mut Node) {
 }
 
 fn fill_lighting(lighting: &mut Node) {
+    // Defaults would hide what the preset says.
+    if is_over_preset(lighting) {
+        return;
+    }
     merge(lighting, &LightingMap::default());
     if let Some(sun) = lighting.child_mut("sun") {
         merge(sun, &SunFile::default());

@@ -267,7 +267,7 @@ pub struct SensorSpec {
 /// Light sources of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LightingSpec {
-    /// Name of the preset that the values come from, if any.
+    /// Name of the preset that the values come from, but for those that the configuration overrides.
     pub preset: Option<&'static str>,
     /// Light of the surroundings.
     pub environment: Option<EnvironmentSpec>,

@@ -4,8 +4,8 @@
 //! into a [`Plan`], which makes each [`FrameSpec`] from its index. A mistake is reported with the place where it was
 //! written: every value is kept with its line and column until the frame is checked.
 //!
-//! Data path: text → `yaml` → tree of `node`s → `fill` (defaults) → `set` (`--set`, axes) → `read` and `de` (types of
-//! `schema`) → `validate` → [`FrameSpec`].
+//! Data path: text → `yaml` → tree of `node`s → `include` (files under it, by `merge`) → `fill` (defaults) → `set` (`--set`,
+//! axes) → `presets` → `read` and `de` (types of `schema`) → `validate` → [`FrameSpec`].
 
 mod axis;
 mod canonical;
@@ -19,12 +19,15 @@ mod fill;
 mod fog_sources;
 mod frame;
 mod identity;
+mod include;
 mod light_groups;
 mod load;
+mod merge;
 mod node;
 mod origin;
 mod patchiness;
 mod plan;
+mod presets;
 mod ranges;
 mod read;
 mod schema;

@@ -1,12 +1,13 @@
 //! From text to plan.
 
-use std::{path::Path, sync::Arc};
+use std::path::Path;
 
 use crate::{
     error::{PlanError, Problem, Problems},
     fill::{fill_model, fill_sections, fill_sky},
+    include,
     node::{Node, Value},
-    origin::Origin,
+    origin::{Origin, Source},
     plan::Plan,
     read::read,
     schema::{ConfigFile, DEFAULT_SEED},
@@ -23,17 +24,18 @@ const MAX_NAME: usize = 100;
 
 /// Reads, overrides and checks a configuration file. `sets` are `KEY=VALUE` arguments, applied in order.
 ///
-/// Only the file itself is read: whether the scene and other files that it names exist is for the caller to see.
+/// Only the file itself and those that it includes are read: whether the scene and other files that it names exist is for the
+/// caller to see.
 ///
 /// # Errors
-/// The file cannot be read, or its problems: all that can be found at once, 20 at most.
+/// The file cannot be read (or has more than 16 MiB), or its problems: all that can be found at once, 20 at most.
 pub fn load(path: &Path, sets: &[String]) -> Result<Plan, PlanError> {
-    let read = std::fs::read_to_string(path);
+    let read = include::read_text(path);
     let text = read.map_err(|source| PlanError::Read { path: path.to_owned(), source })?;
     parse(&text, &path.to_string_lossy(), sets)
 }
 
-/// As [`load`], from text; `file_name` is for messages.
+/// As [`load`], from text; `file_name` is for messages, and files that the text includes are looked for beside it.
 ///
 /// ```
 /// let text = "version: 1\nname: demo\nscene: none\nfog: {model: advection, height_m: 180}\n";
@@ -48,14 +50,14 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Plan, PlanError> {
 /// # Errors
 /// The problems of the configuration: all that can be found at once, 20 at most.
 pub fn parse(text: &str, file_name: &str, sets: &[String]) -> Result<Plan, PlanError> {
-    let file: Arc<str> = file_name.into();
     let fatal = |problem| PlanError::Invalid(vec![problem]);
-    let mut tree = yaml::parse(text, &file).map_err(fatal)?;
+    let mut tree = yaml::parse(text, &Source::named(file_name)).map_err(fatal)?;
     if !matches!(tree.value, Value::Map(_)) {
         let message = format!("expected a configuration (a map), found {}", tree.describe());
         return Err(fatal(Problem::new(&tree.origin, "", message)));
     }
     let mut problems = Problems::default();
+    tree = include::resolve(tree, file_name, &mut problems);
     // Defaults first: overrides may step into them. Then again, for what the overrides have added.
     fill_sections(&mut tree);
     for argument in sets {
@@ -107,8 +109,15 @@ fn apply(tree: &mut Node, argument: &str) -> Result<(), Problem> {
         return Err(Problem::new(&origin, "", "expected KEY=VALUE, such as camera.altitude_m=30"));
     };
     let path = path.trim();
-    let mut value =
-        yaml::parse(text, &"".into()).map_err(|problem| Problem::new(&origin, path, problem.message))?;
+    if path.split('.').next() == Some(include::KEY) {
+        return Err(Problem::new(
+            &origin,
+            path,
+            "can only be written in a file: its files are read before anything is set",
+        ));
+    }
+    let mut value = yaml::parse(text, &Source::named(""))
+        .map_err(|problem| Problem::new(&origin, path, problem.message))?;
     value.set_origin(&origin);
     set(tree, path, &origin, value).map_err(|message| Problem::new(&origin, path, message))
 }

@@ -7,6 +7,8 @@ use crate::{
     frame::FrameSpec,
     identity::{Identity, hash},
     node::{Node, Value},
+    origin::Source,
+    presets,
     set::set,
     sweep::Sweep,
     validate,
@@ -119,6 +121,7 @@ impl Plan {
                 written.push((path.to_owned(), part.to_json()));
             }
         }
+        presets::expand(&mut tree);
         let content = validate::content(&tree).map_err(|problems| {
             PlanError::Invalid(problems.into_iter().map(|problem| self.name_axis(problem)).collect())
         })?;
@@ -183,7 +186,7 @@ impl Plan {
     /// # Errors
     /// `old_yaml` is not a YAML document.
     pub fn differing_keys(&self, old_yaml: &str) -> Result<Vec<String>, PlanError> {
-        let old = crate::yaml::parse(old_yaml, &"config.resolved.yaml".into())
+        let old = crate::yaml::parse(old_yaml, &Source::named("config.resolved.yaml"))
             .map_err(|problem| PlanError::Invalid(vec![problem]))?;
         Ok(crate::diff::differing(&flatten(&old), &flatten(&self.resolved)))
     }

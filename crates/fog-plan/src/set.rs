@@ -3,6 +3,7 @@
 use crate::{
     node::{Entry, Node, Value},
     origin::Origin,
+    presets,
 };
 
 /// Puts `value` at the dotted `path` below `root`. Maps on the way are made when absent; a number steps into a list.
@@ -19,6 +20,7 @@ pub(crate) fn set(root: &mut Node, path: &str, key_origin: &Origin, value: Node)
         None => path.split('.').collect(),
     };
     let Some((last, way)) = keys.split_last() else { return Ok(()) };
+    presets::open(root, path);
     let mut node = root;
     let mut walked = String::new();
     for key in way {
@@ -86,9 +88,10 @@ pub(crate) fn remove(root: &mut Node, path: &[String]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::origin::Source;
 
     fn tree() -> Node {
-        crate::yaml::parse("fog: none\ncamera: {position_m: [0, 1, 2]}\n", &"c.yaml".into()).unwrap()
+        crate::yaml::parse("fog: none\ncamera: {position_m: [0, 1, 2]}\n", &Source::named("c.yaml")).unwrap()
     }
 
     fn put(path: &str) -> Result<serde_json::Value, String> {

@@ -1,6 +1,6 @@
 //! YAML text to a tree with positions. The parser's budgets stop hostile input (deep nesting, alias bombs).
 
-use std::{fmt, sync::Arc};
+use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_yaml::{Location, Spanned};
@@ -8,7 +8,7 @@ use serde_yaml::{Location, Spanned};
 use crate::{
     error::Problem,
     node::{Entry, Node, Value},
-    origin::Origin,
+    origin::{Origin, Source},
 };
 
 /// Deeper nesting than this is refused: no configuration needs it, and recursion must stay bounded.
@@ -18,7 +18,7 @@ const MAX_DEPTH: usize = 32;
 ///
 /// # Errors
 /// The first syntax error, with its position in `file`.
-pub(crate) fn parse(text: &str, file: &Arc<str>) -> Result<Node, Problem> {
+pub(crate) fn parse(text: &str, file: &Source) -> Result<Node, Problem> {
     let options = serde_yaml::options! {
         budget: serde_yaml::budget! { max_depth: MAX_DEPTH },
         strict_booleans: true,
@@ -32,7 +32,7 @@ pub(crate) fn parse(text: &str, file: &Arc<str>) -> Result<Node, Problem> {
     }
 }
 
-fn problem(error: &serde_yaml::Error, file: &Arc<str>) -> Problem {
+fn problem(error: &serde_yaml::Error, file: &Source) -> Problem {
     let origin = match error.location() {
         Some(location) => origin(location, file),
         None => Origin::start_of(file),
@@ -50,8 +50,8 @@ fn problem(error: &serde_yaml::Error, file: &Arc<str>) -> Problem {
     Problem::new(&origin, "", message)
 }
 
-fn origin(location: Location, file: &Arc<str>) -> Origin {
-    Origin::File { file: Arc::clone(file), line: location.line(), column: location.column() }
+fn origin(location: Location, file: &Source) -> Origin {
+    Origin::at(file, location.line(), location.column())
 }
 
 /// What the parser delivers; `locate` then adds the file's name.
@@ -61,7 +61,7 @@ enum Raw {
     Map(Vec<(Spanned<String>, Spanned<Raw>)>),
 }
 
-fn locate(raw: Spanned<Raw>, file: &Arc<str>) -> Node {
+fn locate(raw: Spanned<Raw>, file: &Source) -> Node {
     let value = match raw.value {
         Raw::Scalar(value) => value,
         Raw::List(items) => Value::List(items.into_iter().map(|item| locate(item, file)).collect()),
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Node, String> {
-        parse(text, &"c.yaml".into()).map_err(|p| p.to_string())
+        parse(text, &Source::named("c.yaml")).map_err(|p| p.to_string())
     }
 
     #[test]

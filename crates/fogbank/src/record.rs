@@ -3,9 +3,10 @@
 use crate::CODE_DIGEST;
 use crate::denoise;
 use crate::fog::Fog;
+use fog_core::lens::Intrinsics;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
-use fog_scene::camera::{Camera, Intrinsics};
+use fog_scene::camera::Camera;
 use fog_scene::scene::Scene;
 use fog_tracer::truth::{TAU_NM, TRANSMITTANCE_NM};
 use serde_json::{Value, json};
@@ -120,7 +121,9 @@ fn quaternion_json(camera: &Camera) -> Value {
 
 /// Intrinsics in OpenCV's convention: pixel centres at integer coordinates.
 fn intrinsics_json(camera: &Camera) -> Value {
-    let Intrinsics { fx_px, fy_px, cx_px, cy_px } = camera.intrinsics();
+    let Some(Intrinsics { fx_px, fy_px, cx_px, cy_px }) = camera.lens.intrinsics() else {
+        return Value::Null;
+    };
     json!({
         "fx_px": fx_px,
         "fy_px": fy_px,

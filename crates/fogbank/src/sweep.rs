@@ -267,11 +267,13 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error>
 
 fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64) -> Result<(), Error> {
     let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
-    let attributes = BTreeMap::from([
+    let mut attributes = BTreeMap::from([
         ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
-        ("focal_px".to_owned(), Attribute::Number(rendered.camera.intrinsics().fx_px as f32)),
         ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
     ]);
+    if let Some(intrinsics) = rendered.camera.lens.intrinsics() {
+        attributes.insert("focal_px".to_owned(), Attribute::Number(intrinsics.fx_px as f32));
+    }
     data_set.write_frame(&FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,

@@ -28,22 +28,81 @@ impl Default for LightingFile {
     }
 }
 
-/// Ready-made lighting.
+/// Ready-made lighting: the files of `configs/lighting`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Preset {
-    /// Overcast: the same radiance 1 from every direction; emitting surfaces off.
+    /// The same radiance 1 from every direction; the scene's lights off.
     Day,
-    /// Only the scene's emitting surfaces.
+    /// A thick cloud cover at noon, without shadows; the scene's lights off.
+    Overcast,
+    /// Sun and clear sky, the sun 30° high; the scene's lights off.
+    Clear,
+    /// Clear sky at the end of civil twilight; the scene's lights on.
+    Dusk,
+    /// Only the scene's lights, in its own units.
     Night,
-    /// Weak sky and a sun 35° high in the south-east; emitting surfaces off.
+    /// Weak sky and a sun 35° high in the south-east; the scene's lights off.
     Sunny,
+    /// A street at night, under the glow of a town; the scene's lights on.
+    NightStreet,
+    /// A runway on a moonless night; the scene's lights on.
+    NightRunway,
+    /// A night without street lamps: of the scene's lights those of vehicles alone.
+    Headlamps,
+}
+
+impl Preset {
+    /// All of them.
+    pub(crate) const ALL: [Self; 9] = [
+        Self::Day,
+        Self::Overcast,
+        Self::Clear,
+        Self::Dusk,
+        Self::Night,
+        Self::Sunny,
+        Self::NightStreet,
+        Self::NightRunway,
+        Self::Headlamps,
+    ];
+
+    /// Its name and its file, as text.
+    const fn source(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Day => ("day", include_str!("../../../../configs/lighting/day.yaml")),
+            Self::Overcast => ("overcast", include_str!("../../../../configs/lighting/overcast.yaml")),
+            Self::Clear => ("clear", include_str!("../../../../configs/lighting/clear.yaml")),
+            Self::Dusk => ("dusk", include_str!("../../../../configs/lighting/dusk.yaml")),
+            Self::Night => ("night", include_str!("../../../../configs/lighting/night.yaml")),
+            Self::Sunny => ("sunny", include_str!("../../../../configs/lighting/sunny.yaml")),
+            Self::NightStreet => {
+                ("night_street", include_str!("../../../../configs/lighting/night_street.yaml"))
+            }
+            Self::NightRunway => {
+                ("night_runway", include_str!("../../../../configs/lighting/night_runway.yaml"))
+            }
+            Self::Headlamps => ("headlamps", include_str!("../../../../configs/lighting/headlamps.yaml")),
+        }
+    }
+
+    /// The name in configurations.
+    pub(crate) const fn name(self) -> &'static str {
+        self.source().0
+    }
+
+    /// The file that says what it is.
+    pub(crate) const fn yaml(self) -> &'static str {
+        self.source().1
+    }
 }
 
 /// Light sources.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct LightingMap {
+    /// A preset that the other keys are laid over. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) preset: Option<Preset>,
     /// Light from every direction. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) environment: Option<EnvironmentFile>,
@@ -93,6 +152,7 @@ pub(crate) struct LightGroupFile {
 impl Default for LightingMap {
     fn default() -> Self {
         Self {
+            preset: None,
             environment: None,
             sky: None,
             sun: None,
@@ -195,9 +255,11 @@ impl<'de> Visitor<'de> for LightingVisitor {
     type Value = LightingFile;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(
-            "a preset (day, night, sunny) or a map with keys environment, sky, sun, moon, scene_emitters, \
-             luminance_of_one_cd_m2, groups",
+        let presets = Preset::ALL.map(Preset::name).join(", ");
+        write!(
+            f,
+            "a preset ({presets}) or a map with keys preset, environment, sky, sun, moon, scene_emitters, \
+             luminance_of_one_cd_m2, groups"
         )
     }
 

@@ -21,8 +21,7 @@ pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaF
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use light::{
-    EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset,
-    SUN_DIAMETER_DEG, SunFile,
+    EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset, SunFile,
 };
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
@@ -40,6 +39,9 @@ use or_none::Example;
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Fogbank configuration", extend("required" = ["version", "name"]))]
 pub(crate) struct ConfigFile {
+    /// Files that this one is laid over, relative to it: later ones lie over earlier ones. Maps are merged, all else is replaced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) include: Option<IncludeFile>,
     /// Version of this format: 1.
     #[schemars(required, range(min = 1, max = 1))]
     pub(crate) version: Option<i64>,
@@ -57,7 +59,7 @@ pub(crate) struct ConfigFile {
     pub(crate) camera: CameraFile,
     /// The image plane.
     pub(crate) sensor: SensorFile,
-    /// A preset (`day`, `night`, `sunny`) or a map of light sources.
+    /// A preset or a map of light sources.
     pub(crate) lighting: LightingFile,
     /// How the picture is computed.
     pub(crate) render: RenderFile,
@@ -66,6 +68,17 @@ pub(crate) struct ConfigFile {
     pub(crate) outputs: Outputs,
     /// Axes whose values are multiplied out into frames.
     pub(crate) sweep: Option<SweepFile>,
+}
+
+/// One path or several.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[schemars(rename = "Include")]
+pub(crate) enum IncludeFile {
+    /// A file.
+    One(String),
+    /// Files.
+    Several(Vec<String>),
 }
 
 /// Seed of a configuration that names none.

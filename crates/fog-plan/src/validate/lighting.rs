@@ -1,12 +1,11 @@
-//! Checks of `lighting`, and what the presets are.
+//! Checks of `lighting`.
 
 use super::Check;
 use crate::{
     frame::{EnvironmentSpec, LightingSpec, SunSpec},
     ranges,
     schema::{
-        EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SUN_DIAMETER_DEG,
-        SkyModelName, SunFile,
+        EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightingFile, LightingMap, Preset, SkyModelName, SunFile,
     },
 };
 
@@ -17,12 +16,18 @@ impl Check<'_> {
         lighting: &LightingFile,
         rendered_nm: Option<f64>,
     ) -> Option<LightingSpec> {
-        let map = match lighting {
-            LightingFile::Preset(preset) => return Some(preset_lighting(*preset)),
-            LightingFile::Map(map) => map,
-        };
-        let LightingMap { environment, sky, sun, moon, scene_emitters, luminance_of_one_cd_m2, groups } =
-            &**map;
+        // Names have become maps; one that is left stands for a section that is a problem already.
+        let LightingFile::Map(map) = lighting else { return None };
+        let LightingMap {
+            preset,
+            environment,
+            sky,
+            sun,
+            moon,
+            scene_emitters,
+            luminance_of_one_cd_m2,
+            groups,
+        } = &**map;
         if sky.is_some() && environment.is_some() {
             self.problem("lighting.environment", "not with lighting.sky, which surrounds the scene too");
         }
@@ -37,7 +42,7 @@ impl Check<'_> {
         let luminance = self.optional(path, *luminance_of_one_cd_m2, ranges::LUMINANCE_CD_M2);
         let groups = self.light_groups(groups);
         Some(LightingSpec {
-            preset: None,
+            preset: preset.map(Preset::name),
             environment: environment?,
             sky: sky?,
             sun: sun?,
@@ -157,49 +162,5 @@ impl Check<'_> {
         let rule = "a light given at one wavelength needs render.wavelength_nm to be the same";
         self.problem(path, format!("{light} nm, but render.wavelength_nm {rendered}; {rule}"));
         None
-    }
-}
-
-/// The numbers behind a preset.
-fn preset_lighting(preset: Preset) -> LightingSpec {
-    let environment = |radiance| Some(EnvironmentSpec::Uniform { radiance, wavelength_nm: None });
-    match preset {
-        Preset::Day => LightingSpec {
-            preset: Some("day"),
-            environment: environment(1.0),
-            sky: None,
-            sun: None,
-            moon: None,
-            scene_emitters: false,
-            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
-            groups: Vec::new(),
-        },
-        Preset::Night => LightingSpec {
-            preset: Some("night"),
-            environment: None,
-            sky: None,
-            sun: None,
-            moon: None,
-            scene_emitters: true,
-            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
-            groups: Vec::new(),
-        },
-        Preset::Sunny => LightingSpec {
-            preset: Some("sunny"),
-            environment: environment(0.3),
-            sun: Some(SunSpec {
-                elevation_deg: 35.0,
-                azimuth_deg: 140.0,
-                irradiance: Some(2.0),
-                color_temperature_k: None,
-                angular_diameter_deg: SUN_DIAMETER_DEG,
-                wavelength_nm: None,
-            }),
-            sky: None,
-            moon: None,
-            scene_emitters: false,
-            luminance_of_one_cd_m2: LUMINANCE_OF_ONE_CD_M2,
-            groups: Vec::new(),
-        },
     }
 }

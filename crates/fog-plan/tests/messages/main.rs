@@ -1,5 +1,6 @@
 //! Every kind of mistake, with the exact message.
 
+mod includes;
 mod lights;
 mod sensor;
 
@@ -33,7 +34,7 @@ fn unknown_keys() {
     assert_eq!(
         errors("fog: none\nweather: bad\n"),
         [
-            "configs/x.yaml:7:1: weather: unknown key; expected one of version, name, seed, scene, fog, camera, sensor, \
+            "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, sensor, \
              lighting, render, outputs, sweep"
         ]
     );
@@ -86,7 +87,8 @@ fn unknown_values() {
     assert_eq!(
         errors_with(&format!("{head}fog: none\n"), &[]),
         [
-            "configs/x.yaml:4:11: lighting: unknown value \"niht\"; expected one of day, night, sunny; did you mean `night`?"
+            "configs/x.yaml:4:11: lighting: unknown value \"niht\"; expected one of day, overcast, clear, dusk, night, sunny, \
+             night_street, night_runway, headlamps; did you mean `night`?"
         ]
     );
     assert_eq!(

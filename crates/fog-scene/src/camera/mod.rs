@@ -1,16 +1,14 @@
 //! Cameras: where they stand, and which ray each point of their image sees.
 //!
 //! Poses are camera→world in OpenCV axes (x right, y down, z forward). Image coordinates are continuous with the origin
-//! at the top left corner of the top left pixel, so a pixel's centre lies at + 0.5; [`Intrinsics`] are in OpenCV's
-//! convention, where it lies at 0.
+//! at the top left corner of the top left pixel, so a pixel's centre lies at + 0.5.
 
-mod pinhole;
 mod pose;
 
-pub use pinhole::{Intrinsics, Pinhole};
 pub use pose::Pose;
 
 use fog_core::Vec3A;
+use fog_core::lens::{Lens, Pinhole};
 
 /// A ray with a direction of unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +17,6 @@ pub struct Ray {
     pub origin: Vec3A,
     /// Unit direction of travel.
     pub direction: Vec3A,
-}
-
-/// How directions become image points. Directions are in camera axes (x right, y down, z forward), of any length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lens {
-    /// Straight lines stay straight.
-    Pinhole(Pinhole),
 }
 
 /// A camera: a pose, an image and a lens.
@@ -58,9 +49,7 @@ impl Camera {
     #[inline]
     #[must_use]
     pub fn ray(&self, x: f64, y: f64) -> Option<Ray> {
-        let direction = match &self.lens {
-            Lens::Pinhole(lens) => lens.direction(x, y),
-        };
+        let direction = self.lens.direction(x, y)?;
         Some(Ray { origin: self.pose.position, direction: self.pose.to_world(direction).normalize() })
     }
 
@@ -69,9 +58,7 @@ impl Camera {
     /// ([`Camera::contains`] tells), and whether something stands in front of them is not asked.
     #[must_use]
     pub fn project(&self, point: Vec3A) -> Option<[f64; 2]> {
-        match &self.lens {
-            Lens::Pinhole(lens) => lens.project(self.pose.to_camera(point)),
-        }
+        self.lens.image_point(self.pose.to_camera(point))
     }
 
     /// True if the image point lies in the image.
@@ -84,27 +71,17 @@ impl Camera {
     /// density of directions there. 0 where the lens sees nothing.
     #[must_use]
     pub fn pixel_solid_angle(&self, x: f64, y: f64) -> f64 {
-        match &self.lens {
-            Lens::Pinhole(lens) => lens.pixel_solid_angle(x, y),
-        }
+        self.lens.solid_angle(x, y)
     }
 
-    /// `depth` of a surface at `distance` metres along a ray of this camera: its planar depth along the camera's axis; +inf
-    /// where the distance is.
+    /// `depth` of a surface at `distance` metres along a ray of this camera: its planar depth along the camera's axis, below 0
+    /// where a fisheye looks back; +inf where the distance is. Equirectangular images have no axis: there it is the distance.
     #[must_use]
     pub fn depth(&self, ray: &Ray, distance: f32) -> f32 {
-        if distance == f32::INFINITY {
+        if distance == f32::INFINITY || matches!(self.lens, Lens::Equirectangular(_)) {
             return distance;
         }
         distance * ray.direction.dot(self.pose.forward)
-    }
-
-    /// Focal lengths and principal point.
-    #[must_use]
-    pub fn intrinsics(&self) -> Intrinsics {
-        match &self.lens {
-            Lens::Pinhole(lens) => lens.intrinsics(),
-        }
     }
 }
 

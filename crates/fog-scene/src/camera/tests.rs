@@ -1,4 +1,5 @@
 use super::*;
+use fog_core::lens::{Distortion, Equirectangular, Fisheye, Intrinsics, RadialTangential};
 
 fn close(a: Vec3A, b: Vec3A) {
     assert!((a - b).length() < 1e-6, "{a} {b}");
@@ -17,7 +18,15 @@ fn turned() -> Pose {
 fn cameras() -> Vec<Camera> {
     let camera = |lens| Camera { pose: turned(), width: 320, height: 180, lens };
     let intrinsics = Intrinsics { fx_px: 200.0, fy_px: 210.0, cx_px: 150.0, cy_px: 95.0 };
-    vec![Camera::new(turned(), 320, 180, 60.0), camera(Lens::Pinhole(Pinhole::new(intrinsics)))]
+    let bent = Distortion { k: [-0.2, 0.03, 0.0, 0.0, 0.0, 0.0], p: [0.002, -0.003] };
+    let round = Intrinsics { fx_px: 60.0, fy_px: 60.0, ..intrinsics };
+    vec![
+        Camera::new(turned(), 320, 180, 60.0),
+        camera(Lens::Pinhole(Pinhole::new(intrinsics))),
+        camera(Lens::RadialTangential(RadialTangential::new(intrinsics, bent, 320, 180).unwrap())),
+        camera(Lens::Fisheye(Fisheye::new(round, [-0.01, 0.0, 0.0, 0.0], 200.0, 320, 180).unwrap())),
+        camera(Lens::Equirectangular(Equirectangular::new(320, 180, 360.0, [-90.0, 90.0]))),
+    ]
 }
 
 #[test]
@@ -32,8 +41,9 @@ fn field_of_view_spans_the_width() {
 #[test]
 fn intrinsics_have_pixel_centres_at_integers() {
     let c = Camera::new(Pose::new(Vec3A::ZERO, 0.0, 0.0, 0.0), 321, 181, 60.0);
-    assert_eq!([c.intrinsics().cx_px, c.intrinsics().cy_px], [160.0, 90.0]);
-    let same = Camera { lens: Lens::Pinhole(Pinhole::new(c.intrinsics())), ..c };
+    let intrinsics = c.lens.intrinsics().unwrap();
+    assert_eq!([intrinsics.cx_px, intrinsics.cy_px], [160.0, 90.0]);
+    let same = Camera { lens: Lens::Pinhole(Pinhole::new(intrinsics)), ..c };
     close(direction(&same, 20.0, 30.0), direction(&c, 20.0, 30.0));
 }
 
@@ -59,29 +69,15 @@ fn points_behind_a_pinhole_camera_have_no_image() {
     assert!(!camera.contains(beside) && camera.contains([0.0, 179.9]) && !camera.contains([0.0, 180.0]));
 }
 
-/// Solid angle of the triangle that three unit directions span (Van Oosterom & Strackee 1983, Eq. 8).
-fn solid_angle([a, b, c]: [glam::DVec3; 3]) -> f64 {
-    let below = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
-    2.0 * fog_core::math::f64::atan2(a.dot(b.cross(c)).abs(), below)
-}
-
 #[test]
-fn solid_angles_of_pixels_are_those_of_their_corners() {
+fn depth_is_planar_but_for_equirectangular_images() {
     for camera in cameras() {
-        for (x, y) in [(4.5, 10.5), (160.5, 90.5), (300.5, 20.5)] {
-            let at = |dx: f64, dy: f64| {
-                let ray = camera.ray(x + dx, y + dy)?;
-                Some(ray.direction.as_dvec3().normalize())
-            };
-            // A square of a fifth of a pixel, that single precision can still tell.
-            let corners: Option<Vec<_>> = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
-                .map(|(dx, dy)| at(dx, dy))
-                .into_iter()
-                .collect();
-            let Some(c) = corners else { continue };
-            let want = (solid_angle([c[0], c[1], c[2]]) + solid_angle([c[0], c[2], c[3]])) / 0.04;
-            let found = camera.pixel_solid_angle(x, y);
-            assert!((found / want - 1.0).abs() < 1e-3, "{camera:?} ({x}, {y}): {found} {want}");
-        }
+        let Some(ray) = camera.ray(40.0, 60.0) else { continue };
+        let want = match camera.lens {
+            Lens::Equirectangular(_) => 9.0,
+            _ => camera.pose.to_camera(ray.origin + ray.direction * 9.0)[2] as f32,
+        };
+        assert!((camera.depth(&ray, 9.0) - want).abs() < 1e-5, "{camera:?}");
+        assert_eq!(camera.depth(&ray, f32::INFINITY), f32::INFINITY);
     }
 }
