@@ -19,6 +19,7 @@ mod radiances;
 mod reciprocity;
 mod replay;
 mod samplers;
+mod sensor;
 mod shared;
 mod sky;
 mod street;

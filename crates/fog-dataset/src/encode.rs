@@ -16,13 +16,33 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
     match kind {
         Kind::Image => {
             let frame = files.frame;
-            png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path)
+            match files.camera {
+                Some(camera) => png(frame.width, frame.height, &camera.srgb8, path),
+                None => png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path),
+            }
         }
         Kind::Hdr => radiance(files, layers::radiance(files.frame, outputs), path),
         Kind::Truth => encode(picture(files, layers::truth(files.frame, outputs), false), path),
+        Kind::Raw => {
+            let camera = files.camera.ok_or(NOT_GIVEN).map_err(Error::picture("encode", path))?;
+            png16(files.frame.width, files.frame.height, &camera.raw, path)
+        }
+        Kind::Clear | Kind::ClearImage => {
+            let clear = files.clear.ok_or(NOT_GIVEN).map_err(Error::picture("encode", path))?;
+            let frame = &clear.frame;
+            if (frame.width, frame.height) != (files.frame.width, files.frame.height) {
+                return Err(Error::picture("encode", path)("it has not as many pixels as the frame"));
+            }
+            match kind {
+                Kind::Clear => radiance(files, layers::clear(frame, outputs), path),
+                _ => png(frame.width, frame.height, &clear.srgb8, path),
+            }
+        }
         _ => Ok(pretty(files.record)),
     }
 }
+
+const NOT_GIVEN: &str = "the frame's outputs ask for it, but it was not given";
 
 /// `<id>.timing.json`: seconds, and samples (not pixels) per second, null when no time was measured.
 pub(crate) fn timing(files: &FrameFiles<'_>) -> Vec<u8> {
@@ -41,6 +61,17 @@ pub(crate) fn png(width: u32, height: u32, bytes: &[u8], path: &Path) -> Result<
     let mut out = Vec::new();
     PngEncoder::new_with_quality(&mut out, CompressionType::Fast, FilterType::Adaptive)
         .write_image(bytes, width, height, ExtendedColorType::Rgb8)
+        .map_err(Error::picture("encode", path))?;
+    Ok(out)
+}
+
+/// A 16-bit PNG of one channel; `path` is only for messages.
+fn png16(width: u32, height: u32, values: &[u16], path: &Path) -> Result<Vec<u8>> {
+    // The encoder takes the machine's byte order.
+    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
+    let mut out = Vec::new();
+    PngEncoder::new_with_quality(&mut out, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(&bytes, width, height, ExtendedColorType::L16)
         .map_err(Error::picture("encode", path))?;
     Ok(out)
 }

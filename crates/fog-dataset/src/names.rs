@@ -13,6 +13,9 @@ pub(crate) enum Kind {
     Image,
     Hdr,
     Truth,
+    Raw,
+    Clear,
+    ClearImage,
     Record,
     Denoised,
     DenoisedImage,
@@ -24,7 +27,8 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kinds that hold the frame and are hashed, in the order in which they are written.
-    pub(crate) const HASHED: [Self; 4] = [Self::Image, Self::Hdr, Self::Truth, Self::Record];
+    pub(crate) const HASHED: [Self; 7] =
+        [Self::Image, Self::Hdr, Self::Truth, Self::Raw, Self::Clear, Self::ClearImage, Self::Record];
 
     /// The kinds that depend on more than the frame: on a library and the processor. Of two pictures and their record,
     /// which has their hashes, the record is written last.
@@ -36,6 +40,9 @@ impl Kind {
             Self::Image => "rgb.png",
             Self::Hdr => "hdr.exr",
             Self::Truth => "gt.exr",
+            Self::Raw => "raw.png",
+            Self::Clear => "clear.exr",
+            Self::ClearImage => "clear.rgb.png",
             Self::Record => "json",
             Self::Denoised => "denoised.exr",
             Self::DenoisedImage => "denoised.png",
@@ -53,6 +60,8 @@ impl Kind {
             Self::Image => outputs.image,
             Self::Hdr => outputs.wants_hdr_file(),
             Self::Truth => outputs.wants_truth_file(),
+            Self::Raw => outputs.raw,
+            Self::Clear | Self::ClearImage => outputs.pair,
             _ => true,
         }
     }
@@ -70,8 +79,10 @@ pub(crate) fn check_id(id: &str) -> Result<()> {
     if !id.as_bytes()[0].is_ascii_alphanumeric() {
         return bad("it must begin with a letter or digit");
     }
-    if id == "dataset" || [".timing", ".failed", ".denoised"].iter().any(|taken| id.ends_with(taken)) {
-        return bad("`dataset` and names ending in `.timing`, `.failed` or `.denoised` are taken");
+    if id == "dataset"
+        || [".timing", ".failed", ".denoised", ".clear"].iter().any(|taken| id.ends_with(taken))
+    {
+        return bad("`dataset` and names ending in `.timing`, `.failed`, `.denoised` or `.clear` are taken");
     }
     Ok(())
 }
@@ -96,6 +107,7 @@ mod tests {
             "a.timing",
             "a.failed",
             "a.denoised",
+            "a.clear",
             "ä",
             "a b",
             &long,

@@ -32,11 +32,15 @@ pub struct OutputSet {
     pub groups: bool,
     /// Estimate of the radiance without its noise.
     pub denoised: bool,
+    /// Raw picture of the sensor.
+    pub raw: bool,
+    /// The same view in clear air.
+    pub pair: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; 14] = [
         "image",
         "hdr",
         "depth",
@@ -49,6 +53,8 @@ impl OutputSet {
         "samples",
         "groups",
         "denoised",
+        "raw",
+        "pair",
     ];
 
     /// Every output.
@@ -108,6 +114,8 @@ impl OutputSet {
             "samples" => &mut self.samples,
             "groups" => &mut self.groups,
             "denoised" => &mut self.denoised,
+            "raw" => &mut self.raw,
+            "pair" => &mut self.pair,
             _ => return None,
         })
     }

@@ -57,6 +57,9 @@ pub struct Frame {
     pub standard_error: Vec<f32>,
     /// The image once more, by groups of lights; they add up to it but for rounding. Empty where none were told apart.
     pub groups: Vec<GroupLayer>,
+    /// The image once more, as the red, green and blue pixels of a sensor see it, in units of what green ones get from D65
+    /// white of radiance 1. Empty where none was asked for.
+    pub sensor: Vec<Rgb>,
     /// Truth channels.
     pub truth: Truth,
 }
@@ -82,6 +85,7 @@ impl Frame {
             airlight: pixels.iter().map(PixelFilm::airlight).collect(),
             standard_error: pixels.iter().map(|p| p.luminance().standard_error() as f32).collect(),
             groups: Vec::new(),
+            sensor: Vec::new(),
             truth,
         };
         frame.check()?;
@@ -95,6 +99,18 @@ impl Frame {
     pub fn with_groups(mut self, names: Vec<String>, films: &Films) -> Result<Self, FrameError> {
         let layer = |(i, name)| GroupLayer { name, radiance: films.group(i) };
         self.groups = names.into_iter().enumerate().map(layer).collect();
+        self.check()?;
+        Ok(self)
+    }
+
+    /// The frame with the channels of a sensor, if `films` has one sum more than there are groups.
+    ///
+    /// # Errors
+    /// As [`Frame::check`].
+    pub fn with_sensor(mut self, films: &Films) -> Result<Self, FrameError> {
+        if films.group_count() > self.groups.len() {
+            self.sensor = films.group(self.groups.len());
+        }
         self.check()?;
         Ok(self)
     }
@@ -127,6 +143,7 @@ impl Frame {
         ]
         .into_iter()
         .chain(self.groups.iter().map(|g| ("groups", g.radiance.len())))
+        .chain((!self.sensor.is_empty()).then_some(("sensor", self.sensor.len())))
         {
             if found != expected {
                 return Err(FrameError::Shape { channel, width, height, expected, found });
@@ -137,7 +154,10 @@ impl Frame {
             return Err(FrameError::Unsampled { x, y });
         }
         let used = if matches!(self.channels, Channels::Rgb) { 3 } else { 1 };
-        let finite = |i: &usize| self.image(*i)[..used].iter().all(|v| v.is_finite());
+        let finite = |i: &usize| {
+            let sensor = self.sensor.get(*i).into_iter().flatten();
+            self.image(*i)[..used].iter().chain(sensor).all(|v| v.is_finite())
+        };
         match (0..expected).find(|i| !finite(i)) {
             Some(i) => {
                 let (x, y) = place(i);

@@ -8,7 +8,7 @@ use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
-    sensor::ExposureSpec,
+    sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
     sky::{MoonSpec, SkySpec},
 };
@@ -252,7 +252,7 @@ pub struct CameraSpec {
 }
 
 /// Image plane of a pinhole camera with square pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
@@ -262,6 +262,9 @@ pub struct SensorSpec {
     pub horizontal_fov_deg: f64,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
+    /// The sensor that `raw` and `image` are taken with. Absent, and then not written: the picture is ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<SensorModelSpec>,
 }
 
 /// Light sources of a frame.
@@ -394,4 +397,8 @@ pub enum Output {
     Samples,
     /// An estimate of `Hdr`, which is then there too, without its noise.
     Denoised,
+    /// The sensor's raw picture.
+    Raw,
+    /// The same view in clear air.
+    Pair,
 }

@@ -52,6 +52,6 @@ pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
 pub use plan::{AxisSummary, Plan};
 pub use schema::schema_json;
-pub use sensor::ExposureSpec;
+pub use sensor::{BayerSpec, ExposureSpec, PsfSpec, ResponseSpec, SensorModelSpec, VignettingSpec};
 pub use share::Share;
 pub use sky::{MoonSpec, SkyBrightness, SkySpec};

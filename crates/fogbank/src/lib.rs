@@ -18,6 +18,7 @@
 //! ```
 
 mod changed_files;
+mod clear_air;
 mod compare;
 mod denoise;
 mod droplets;
@@ -33,6 +34,7 @@ mod record;
 mod reference;
 mod replay;
 mod resources;
+mod sensor;
 mod shared;
 mod skies;
 mod sources;

@@ -7,7 +7,7 @@ use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::shared::{render_set, share_sets};
-use crate::{CODE_DIGEST, changed_files, frame};
+use crate::{CODE_DIGEST, changed_files, clear_air, frame, sensor};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
 use fog_plan::{FrameSpec, Plan};
 use fog_tracer::render::Work;
@@ -80,7 +80,8 @@ pub fn sweep(
     let mut refused = None;
     for &i in &selected {
         let scene = frame::scene(&frames[i], resources);
-        match scene.and_then(|_| resources.denoiser(&frames[i])) {
+        let observer = || sensor::observer(&frames[i], resources);
+        match scene.and_then(|_| observer()).and_then(|_| resources.denoiser(&frames[i])) {
             Ok(_) => {
                 refused = None;
                 break;
@@ -216,14 +217,20 @@ fn warn_of_unknown_lights<'f>(
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
-    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(spec.render.samples)
+    let pixels = u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px);
+    pixels * u64::from(spec.render.samples) * views(spec)
 }
 
 /// Number of paths that a frame takes at most: [`path_count`] unless sampling goes by noise.
 #[must_use]
 pub fn most_paths(spec: &FrameSpec) -> u64 {
     let most = spec.render.stop.map_or(spec.render.samples, |stop| stop.max_samples);
-    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(most)
+    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(most) * views(spec)
+}
+
+/// Views that are rendered of a frame: its own, and that in clear air.
+fn views(spec: &FrameSpec) -> u64 {
+    if clear_air::is_rendered(spec) { 2 } else { 1 }
 }
 
 /// The outputs of a frame as the data set knows them.
@@ -279,6 +286,8 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64
         frame: &rendered.frame,
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
+        camera: rendered.camera_picture.as_ref(),
+        clear: rendered.clear.as_ref(),
         exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,

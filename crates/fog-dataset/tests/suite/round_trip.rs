@@ -143,7 +143,7 @@ fn two_runs_give_the_same_bytes() {
         contents(dir.path())
     };
     let first = run(1.0);
-    assert_eq!(first.len(), 4 + 2 * 8);
+    assert_eq!(first.len(), 4 + 2 * 11);
     for i in 0..8 {
         assert!(run(f64::from(i)) == first, "run {i} differs");
     }
@@ -165,7 +165,18 @@ fn marker_timing_and_headers_say_what_they_should() {
         .iter()
         .map(|f| f["name"].as_str().expect("a name"))
         .collect();
-    assert_eq!(names, ["f0.rgb.png", "f0.hdr.exr", "f0.gt.exr", "f0.json"]);
+    assert_eq!(
+        names,
+        [
+            "f0.rgb.png",
+            "f0.hdr.exr",
+            "f0.gt.exr",
+            "f0.raw.png",
+            "f0.clear.exr",
+            "f0.clear.rgb.png",
+            "f0.json"
+        ]
+    );
     let record = std::fs::read_to_string(dir.path().join("f0.json")).expect("a record");
     assert_eq!(record, "{\n  \"id\": \"f0\",\n  \"samples\": 4\n}\n");
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::exposure::ExposureFile;
+use super::{exposure::ExposureFile, sensor_model::SensorModelFile};
 use crate::ranges;
 
 /// Pose of the camera.
@@ -51,11 +51,21 @@ pub(crate) struct SensorFile {
     /// Factor on linear values before sRGB encoding, or where it comes from: `auto`, {percentile: …, target: …} or
     /// {iso: …, shutter_s: …, f_number: …}.
     pub(crate) exposure: ExposureFile,
+    /// The sensor: lens, noise, converter and colour filters of `raw` and, developed, of `image`. Absent: none, the picture is
+    /// ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) model: Option<SensorModelFile>,
 }
 
 impl Default for SensorFile {
     fn default() -> Self {
-        Self { width_px: 320, height_px: 180, horizontal_fov_deg: 60.0, exposure: ExposureFile::Factor(1.0) }
+        Self {
+            width_px: 320,
+            height_px: 180,
+            horizontal_fov_deg: 60.0,
+            exposure: ExposureFile::Factor(1.0),
+            model: None,
+        }
     }
 }
 
@@ -142,6 +152,10 @@ pub(crate) enum OutputFile {
     Samples,
     /// A guess at `hdr` without its noise, by Open Image Denoise, in files of its own beside it; only where it is named.
     Denoised,
+    /// The raw picture of `sensor.model`, a mosaic of up to 16 bits; only where it is named.
+    Raw,
+    /// The same view in clear air at the same exposure, radiance and picture; only where it is named.
+    Pair,
 }
 
 impl OutputFile {

@@ -10,6 +10,7 @@ mod light;
 mod or_none;
 mod patchiness;
 mod phase;
+mod sensor_model;
 mod sky;
 mod sweep;
 
@@ -26,6 +27,10 @@ pub(crate) use light::{
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use sensor_model::{
+    BayerFile, PsfFile, ResponseFile, SensorModelFile, SensorModelMap, SensorModelWord, SensorPreset,
+    VignettingFile,
+};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
 };
@@ -88,7 +93,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
+/// Names of the outputs; unless said otherwise all but `standard_error`, `samples`, `denoised`, `raw` and `pair`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);

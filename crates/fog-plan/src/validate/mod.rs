@@ -6,6 +6,7 @@ mod fog;
 mod light_groups;
 mod lighting;
 mod patchiness;
+mod sensor_model;
 mod sky;
 mod view;
 
@@ -69,6 +70,7 @@ impl Check<'_> {
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let camera = self.camera(&file.camera, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let outputs = self.outputs(&file.outputs);
+        self.sensor_rules(file, sensor.as_ref());
         Some(Content {
             scene: scene?,
             fog: fog?,

@@ -51,11 +51,13 @@ impl Check<'_> {
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
         let fov = self.range("sensor.horizontal_fov_deg", sensor.horizontal_fov_deg, ranges::FOV_DEG);
         let exposure = self.exposure(&sensor.exposure);
+        let model = self.sensor_model(sensor.model.as_ref(), exposure.as_ref());
         Some(SensorSpec {
             width_px: width?,
             height_px: height?,
             horizontal_fov_deg: fov?,
             exposure: exposure?,
+            model: model?,
         })
     }
 
@@ -149,5 +151,7 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
         OutputFile::Denoised => Output::Denoised,
+        OutputFile::Raw => Output::Raw,
+        OutputFile::Pair => Output::Pair,
     }
 }
