@@ -7,7 +7,6 @@ use fogbank::{Event, Progress, TableOrigin};
 use indicatif::{HumanBytes, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Paths per second and thread that an estimate before rendering counts with: the quickstart's mean where it was measured
@@ -16,10 +15,17 @@ const NOMINAL_PATHS_PER_SECOND: f64 = 70_000.0;
 /// Seconds between progress lines where no terminal shows a bar.
 const LINE_SECONDS: u64 = 10;
 
+/// Longest plan whose every frame is looked at for its size; of longer ones as many, evenly spread.
+const LOOKED_AT: usize = 2000;
+
 /// Prints name, axes, size and estimates of a plan.
 pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<()> {
     let (mut paths, mut most, mut bytes) = (0u64, 0u64, 0u64);
-    let frames = plan.frames().collect::<Result<Vec<_>, _>>().map_err(fogbank::Error::from)?;
+    let count = plan.len().min(LOOKED_AT);
+    let frames = (0..count)
+        .map(|i| plan.frame((i as u128 * plan.len() as u128 / count as u128) as usize))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(fogbank::Error::from)?;
     for frame in &frames {
         paths += fogbank::path_count(frame);
         most += fogbank::most_paths(frame);
@@ -29,6 +35,8 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
         let outputs = fogbank::output_set(frame);
         bytes += fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, outputs, groups);
     }
+    let all = |sum: u64| (sum as u128 * plan.len() as u128 / count as u128) as u64;
+    let (paths, most, bytes) = (all(paths), all(most), all(bytes));
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
     writeln!(out, "{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" })?;
     for axis in plan.axes() {
@@ -36,7 +44,7 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
         writeln!(out, "  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" })?;
     }
     let passes = fogbank::share_sets(&frames).len();
-    if passes < frames.len() {
+    if passes < frames.len() && frames.len() == plan.len() {
         let word = if passes == 1 { "pass" } else { "passes" };
         writeln!(out, "  {passes} {word}: frames share paths (render.share)")?;
     }
@@ -62,7 +70,6 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
 pub(crate) struct Reporter {
     quiet: bool,
     bar: ProgressBar,
-    failures: AtomicU64,
     line: Mutex<Line>,
 }
 
@@ -82,17 +89,7 @@ impl Reporter {
         let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let now = Instant::now();
         let line = Line { started: now, printed: now, paths: 0, total: 0, frames: 0, todo: 0 };
-        Self {
-            quiet,
-            bar: ProgressBar::with_draw_target(None, target),
-            failures: AtomicU64::new(0),
-            line: Mutex::new(line),
-        }
-    }
-
-    /// Frames that failed.
-    pub(crate) fn failures(&self) -> u64 {
-        self.failures.load(Ordering::Relaxed)
+        Self { quiet, bar: ProgressBar::with_draw_target(None, target), line: Mutex::new(line) }
     }
 
     /// Takes the bar off the screen.
@@ -132,7 +129,6 @@ impl Reporter {
         self.bar.reset();
         self.bar.set_style(style);
         self.bar.set_length(paths);
-        self.bar.enable_steady_tick(Duration::from_millis(500));
         if let Ok(mut line) = self.line.lock() {
             let now = Instant::now();
             *line = Line { started: now, printed: now, paths: 0, total: paths, frames: 0, todo };
@@ -169,8 +165,8 @@ impl Progress for Reporter {
                     format!("optics table ({name}): built in {seconds:.1} s, but not kept: {reason}")
                 }
             }),
-            Event::Scene { path, triangles, warnings, seconds } => {
-                self.say(&format!("scene {}: {triangles} triangles, {seconds:.2} s", path.display()));
+            Event::Scene { name, triangles, warnings, seconds } => {
+                self.say(&format!("scene {name}: {triangles} triangles, {seconds:.2} s"));
                 for warning in warnings {
                     self.say(&format!("  warning: {warning}"));
                 }
@@ -179,14 +175,19 @@ impl Progress for Reporter {
                 self.say(&format!("Open Image Denoise {version}: {}", path.display()));
             }
             Event::Warning(text) => self.say(&format!("warning: {text}")),
-            Event::Ready { done, paths, todo } => {
+            Event::Ready { done, failed, paths, todo } => {
                 if done > 0 {
                     self.say(&format!("{done} frames are done already, {todo} to go"));
+                }
+                if failed > 0 {
+                    let what = "failed before and are not tried again without --retry-failed";
+                    self.bar.suspend(|| print::complaint(format_args!("{failed} frames {what}")));
                 }
                 self.begin(paths, todo);
             }
             Event::FrameStarted { id } => self.bar.set_message(id.to_owned()),
             Event::Paths(n) => self.count(n),
+            Event::Waiting => self.bar.tick(),
             Event::Expected(paths) => {
                 self.bar.set_length(paths);
                 if let Ok(mut line) = self.line.lock() {
@@ -198,7 +199,6 @@ impl Progress for Reporter {
                 self.say(&format!("{n:>7}  {id}  {seconds:.1} s, noise {:.1} %", 100.0 * noise));
             }
             Event::FrameFailed { id, reason, paths: _ } => {
-                self.failures.fetch_add(1, Ordering::Relaxed);
                 let n = self.next_frame();
                 self.bar.suspend(|| print::complaint(format_args!("{n:>7}  {id}  FAILED: {reason}")));
             }

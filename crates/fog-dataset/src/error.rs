@@ -70,6 +70,23 @@ pub enum Error {
         /// The folder.
         dir: PathBuf,
     },
+    /// The plan lacks a frame that the folder has.
+    #[error("{} has a frame {frame} that is not in this plan: a data set is extended by adding values to its axes; use \
+        another folder, or replace this data set", dir.display())]
+    NotAnExtension {
+        /// The folder.
+        dir: PathBuf,
+        /// The frame.
+        frame: String,
+    },
+    /// Folders whose frames are not of one plan and program.
+    #[error("{} and {} are not parts of one data set: their configurations or programs differ", a.display(), b.display())]
+    NotOneDataSet {
+        /// One folder.
+        a: PathBuf,
+        /// The other.
+        b: PathBuf,
+    },
     /// The folder is in use by something else.
     #[error("{} is not empty and holds no Fogbank data set (it has `{found}`); use an empty or a new folder",
         dir.display())]

@@ -2,12 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use fog_core::lens::Lens;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
+    lens::{IntrinsicsSpec, LensSpec, ShutterSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    path::PathSpec,
+    rig::RigSpec,
+    scene::SceneSpec,
     sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
     sky::{MoonSpec, SkySpec},
@@ -36,6 +41,16 @@ pub struct FrameSpec {
     pub fog: FogSpec,
     /// Pose of the camera.
     pub camera: CameraSpec,
+    /// The rig that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rig: Option<RigSpec>,
+    /// The path that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathSpec>,
+    /// Pose of the camera when the lower edge of the image is exposed; `camera` is then that of the upper edge. Absent, and then
+    /// not written: all rows are exposed at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub readout_end: Option<CameraSpec>,
     /// Image plane.
     pub sensor: SensorSpec,
     /// Light sources.
@@ -52,13 +67,6 @@ fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) ->
         map.serialize_entry(path, value)?;
     }
     map.end()
-}
-
-/// A scene file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SceneSpec {
-    /// Path as written in the configuration (`.glb` or `.gltf`), relative to the current folder.
-    pub file: PathBuf,
 }
 
 /// The fog of a frame.
@@ -251,15 +259,29 @@ pub struct CameraSpec {
     pub roll_deg: f64,
 }
 
-/// Image plane of a pinhole camera with square pixels.
+/// Image plane and lens.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
     /// Height in pixels, 1 to 16 384.
     pub height_px: u32,
-    /// Horizontal field of view in degrees, 0.1 to 170.
-    pub horizontal_fov_deg: f64,
+    /// Horizontal field of view in degrees of the lens without its distortion, 0.1 to 170, of a fisheye or an equirectangular
+    /// image to 360. Absent, and then not written, where there are intrinsics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizontal_fov_deg: Option<f64>,
+    /// Focal lengths and principal point as configured; absent, and then not written, where there is a field of view.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intrinsics: Option<IntrinsicsSpec>,
+    /// The lens. Not written where it is a pinhole, so that it is no part of old digests.
+    #[serde(skip_serializing_if = "LensSpec::is_pinhole")]
+    pub lens: LensSpec,
+    /// What all that makes: which direction each image point shows. Not written.
+    #[serde(skip)]
+    pub projection: Lens,
+    /// When the rows are exposed. Absent, and then not written: all at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
     /// The sensor that `raw` and `image` are taken with. Absent, and then not written: the picture is ideal.

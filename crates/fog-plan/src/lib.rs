@@ -16,20 +16,26 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod filter;
 mod fog_sources;
 mod frame;
 mod identity;
 mod include;
+mod layout;
+mod lens;
 mod light_groups;
 mod load;
 mod merge;
 mod node;
 mod origin;
 mod patchiness;
+mod path;
 mod plan;
 mod presets;
 mod ranges;
 mod read;
+mod rig;
+mod scene;
 mod schema;
 mod sensor;
 mod set;
@@ -42,15 +48,20 @@ mod yaml;
 
 pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
+pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
+    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
+pub use path::{ApproachSpec, NextSpec, PathSpec};
 pub use plan::{AxisSummary, Plan};
+pub use rig::{PoseSpec, RigSpec};
+pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
 pub use sensor::{BayerSpec, ExposureSpec, PsfSpec, ResponseSpec, SensorModelSpec, VignettingSpec};
 pub use share::Share;

@@ -127,7 +127,7 @@ fn one_pass(
     };
     let variants: Vec<Variant> = pass.iter().map(variant).collect();
     let (scene, _) = frame::scene(&base, resources)?;
-    let camera = frame::camera(&base.camera, &base.sensor);
+    let camera = frame::camera(&base);
     let observer = sensor::observer(&base, resources)?;
     let (settings, view) = (settings(&base), (&camera, &observer));
     let frames = render_shared(&scene, &media, &variants, view, &settings, base.seed, progress);
