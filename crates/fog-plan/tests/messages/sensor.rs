@@ -94,7 +94,7 @@ fn models() {
         [
             "configs/x.yaml:7:45: sensor.model.black_level: 512 is half of the range of 10 bits or more; valid: 0 to 511",
             "configs/x.yaml:7:79: sensor.model.vignetting.polynomial.1: 11 is out of range; valid: -10 to 10",
-            "configs/x.yaml:7:104: sensor.model.response.file: empty; give the path of a CSV file",
+            "configs/x.yaml:7:105: sensor.model.response.file: empty; give the path of a CSV file",
         ]
     );
 }
