@@ -145,7 +145,8 @@ pub(crate) fn finish(
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
     let denoiser = resources.denoiser(spec)?;
-    let denoised =
-        denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
+    let denoised = denoiser
+        .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
+        .transpose()?;
     Ok(Rendered { frame, record, camera, exposure, denoised })
 }

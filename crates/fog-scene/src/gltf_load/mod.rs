@@ -3,6 +3,7 @@
 mod accessor;
 mod animations;
 mod container;
+mod distributions;
 mod document;
 mod extensions;
 mod files;
@@ -23,7 +24,7 @@ use crate::material::{Material, Opacity};
 use crate::texture::Texture;
 use fog_core::DMat4;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a scene file may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,6 +108,8 @@ pub struct SceneFile {
     buffers: accessor::Buffers,
     materials: Vec<Material>,
     textures: Vec<Texture>,
+    /// Of its lights; each is read once, whatever the time.
+    distributions: Mutex<distributions::Distributions>,
     animation: Option<Animation>,
     max_triangles: usize,
     warnings: Vec<String>,
@@ -182,8 +185,17 @@ impl SceneFile {
         // Primitives without a material use glTF's default one, which comes last.
         materials.push(Material::default());
         let animation = animations::read(&document, &buffers, &mut warnings)?;
-        let (path, max_triangles, warnings) = (path.to_owned(), limits.max_triangles, warnings.0);
-        Ok(Self { path, document, buffers, materials, textures, animation, max_triangles, warnings })
+        Ok(Self {
+            path: path.to_owned(),
+            document,
+            buffers,
+            materials,
+            textures,
+            distributions: Mutex::new(distributions::Distributions::new(files)),
+            animation,
+            max_triangles: limits.max_triangles,
+            warnings: warnings.0,
+        })
     }
 
     /// Whether anything moves; if not, the scene is the same at all times.
@@ -205,8 +217,16 @@ impl SceneFile {
         let mut warnings = Warnings(self.warnings.clone());
         let motion = animation.as_ref().map(|animation| (animation, time_s));
         let look = (&materials[..], &textures[..]);
+        let mut distributions = self.distributions.lock().unwrap_or_else(PoisonError::into_inner);
         let nodes::Flat { triangles, colors, tangents, objects, nodes, parents, lights, light_names } =
-            nodes::flatten(document, buffers, look, self.max_triangles, motion, &mut warnings)?;
+            nodes::flatten(
+                (document, motion),
+                buffers,
+                look,
+                &mut distributions,
+                self.max_triangles,
+                &mut warnings,
+            )?;
         let shared: Arc<[Texture]> = textures.iter().cloned().collect();
         let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
         let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);

@@ -1,6 +1,7 @@
 //! Walking the node tree: every mesh instance becomes triangles in world space.
 
 use super::accessor::Buffers;
+use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneObject, Warnings, lights};
 use crate::animation::Animation;
@@ -45,11 +46,11 @@ struct Inherited {
 /// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
 /// everything is where it is at the time.
 pub(super) fn flatten(
-    document: &Document,
+    (document, motion): (&Document, Option<(&Animation, f64)>),
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
+    distributions: &mut Distributions,
     max_triangles: usize,
-    motion: Option<(&Animation, f64)>,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
     let scene = document.default_scene().or_else(|| document.scenes().next());
@@ -76,8 +77,8 @@ pub(super) fn flatten(
         }
         let mesh = node.mesh();
         let label = |key: &str, above: &Option<Rc<str>>| {
-            let of_mesh = || mesh.as_ref().and_then(|mesh| extra(mesh.extras(), key));
-            extra(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+            let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
+            text(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
         };
         let local = match motion {
             Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
@@ -90,7 +91,7 @@ pub(super) fn flatten(
         };
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
-            lights::place(&light, (&name, &here.world), out, warnings)?;
+            lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
         }
         if let Some(mesh) = mesh {
             let primitives = match meshes.get(&mesh.index()) {
@@ -140,10 +141,15 @@ pub(super) fn node_name(node: &Node<'_>) -> String {
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
 
+/// A member of `extras`.
+pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<serde_json::Value> {
+    let mut extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
+    extras.get_mut(key).map(serde_json::Value::take)
+}
+
 /// A string in `extras`.
-fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
-    let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
-    extras.get(key)?.as_str().map(Rc::from)
+fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+    extra(extras, key)?.as_str().map(Rc::from)
 }
 
 /// A node's own matrix, in f64.

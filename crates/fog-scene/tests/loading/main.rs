@@ -3,6 +3,7 @@
 mod animations;
 #[path = "../common/mod.rs"]
 mod common;
+mod distributions;
 mod materials;
 
 use common::{TRIANGLE, data, document, floats, glb, load_bytes, refusal};
