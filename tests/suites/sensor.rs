@@ -1,21 +1,30 @@
 //! A sensor's channels beside the observer's.
 
+use fog_core::Vec3A;
 use fog_core::colour::Observer;
 use fog_core::sensor_response::SensorResponse;
 use fog_core::spectrum::Wavelengths;
 use fog_film::Frame;
+use fog_scene::LoadedScene;
+use fog_scene::lamp::{Lamp, LightNames, PunctualLights};
 use fog_scene::light::Environment;
 use fog_scene::light_groups::{LightGroup, LightGroups, LightPattern};
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
 use fog_tracer::render_shared::{Variant, render_shared};
 use fog_tracer::settings::Settings;
+use std::sync::Arc;
 
 const SETTINGS: Settings = Settings { samples: 8, stop: None, max_depth: None, wavelength_nm: None };
 
+/// The street under an even sky, with a lamp in view, which no path finds.
 fn street() -> Scene {
     let fog = scenes::coloured_fog(60.0, 0.02, 0.95);
-    Scene::new(scenes::load("street_night.glb"), Some(fog), Some(Environment { radiance: 1.0 }), None, true)
+    let lamps = vec![Lamp::even(Vec3A::new(0.5, 2.5, -8.0), [4.0, 6.0, 5.0])];
+    let lights = PunctualLights { lamps, beams: vec![] };
+    let light_names = LightNames { lamps: vec!["lamp".to_owned()], beams: vec![] };
+    let loaded = Arc::new(LoadedScene { lights, light_names, ..(*scenes::load("street_night.glb")).clone() });
+    Scene::new(loaded, Some(fog), Some(Environment { radiance: 1.0 }), None, true)
 }
 
 /// An observer with a sensor whose curves are its own.
@@ -58,6 +67,8 @@ fn the_observers_curves_record_the_image_and_change_nothing() {
         let without = render(&scene, &plain, &SETTINGS);
         let with = render(&scene, &sensor, &SETTINGS);
         assert_channels_are_the_image(&with);
+        let lamp = with.sensor.iter().map(|rgb| rgb[1]).fold(0.0, f32::max);
+        assert!(lamp > 10.0, "{lamp}");
         assert_eq!(Frame { sensor: Vec::new(), ..with }, without);
     }
     // One wavelength has no colours.

@@ -1,7 +1,9 @@
 //! What the loader makes of well-formed files.
 
+mod animations;
 #[path = "../common/mod.rs"]
 mod common;
+mod distributions;
 mod materials;
 
 use common::{TRIANGLE, data, document, floats, glb, load_bytes, refusal};
