@@ -164,7 +164,6 @@ pub(crate) fn finish(
     } else {
         None
     };
-    drop(chain);
     let denoiser = resources.denoiser(spec)?;
     let denoised = denoiser
         .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
