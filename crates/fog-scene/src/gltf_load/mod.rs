@@ -19,6 +19,7 @@ use crate::geometry::Geometry;
 use crate::lamp::{LightNames, PunctualLights};
 use crate::material::{Material, Opacity};
 use crate::texture::Texture;
+use glam::{DMat4, DVec3};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -40,11 +41,33 @@ impl Default for Limits {
     }
 }
 
+/// A node, with a mesh or without.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneNode {
+    /// Its name, else that of its mesh, else `node N`.
+    pub name: String,
+    /// Index of the node that it hangs on; always less than its own.
+    pub parent: Option<u32>,
+    /// `extras.class` of the node or its mesh.
+    pub class: Option<String>,
+    /// `extras.instance` of the node or its mesh.
+    pub instance: Option<String>,
+    /// Named points in the node's own axes, in metres: those of `extras.keypoints` (a map of x, y, z), and the node's origin under
+    /// the name `extras.keypoint`.
+    pub keypoints: Vec<(String, DVec3)>,
+    /// World from the node's axes.
+    pub world: DMat4,
+}
+
 /// A node with a mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneObject {
+    /// Index of the node.
+    pub node: u32,
     /// Name of the node, else of its mesh, else `node N`.
     pub name: String,
+    /// Name of the mesh.
+    pub mesh: Option<String>,
     /// `extras.class` of the node, its mesh or its nearest ancestor that has one.
     pub class: Option<String>,
     /// `extras.instance`, found in the same way.
@@ -60,6 +83,8 @@ pub struct LoadedScene {
     pub materials: Vec<Material>,
     /// Textures; [`crate::TextureRef::texture`] is an index of them.
     pub textures: Vec<Texture>,
+    /// All nodes, depth first.
+    pub nodes: Vec<SceneNode>,
     /// Nodes with meshes; [`crate::Triangle::object`] is an index of them.
     pub objects: Vec<SceneObject>,
     /// Lights without extent, in cd and lx.
@@ -68,6 +93,26 @@ pub struct LoadedScene {
     pub light_names: LightNames,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
+}
+
+impl LoadedScene {
+    /// Name of a node, or nothing if there is no such node.
+    #[must_use]
+    pub fn node_name(&self, node: u32) -> &str {
+        self.nodes.get(node as usize).map_or("", |node| &node.name)
+    }
+
+    /// `extras.instance` of a node, or of its nearest ancestor that has one.
+    #[must_use]
+    pub fn instance_name(&self, node: u32) -> Option<&str> {
+        let mut node = self.nodes.get(node as usize)?;
+        loop {
+            if let Some(name) = &node.instance {
+                return Some(name);
+            }
+            node = &self.nodes[node.parent? as usize];
+        }
+    }
 }
 
 /// Sentences without repetition, at most a hundred.
@@ -119,10 +164,19 @@ fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
     // Primitives without a material use glTF's default one, which comes last.
     materials.push(Material::default());
 
-    let nodes::Flat { triangles, colors, tangents, objects, lights, light_names } =
+    let nodes::Flat { triangles, colors, tangents, nodes, objects, lights, light_names } =
         nodes::flatten(&document, &buffers, (&materials, &textures), limits.max_triangles, &mut warnings)?;
     let shared: Arc<[Texture]> = textures.iter().cloned().collect();
     let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
     let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
-    Ok(LoadedScene { geometry, materials, textures, objects, lights, light_names, warnings: warnings.0 })
+    Ok(LoadedScene {
+        geometry,
+        materials,
+        textures,
+        nodes,
+        objects,
+        lights,
+        light_names,
+        warnings: warnings.0,
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::accessor::Buffers;
 use super::primitives::{self, Primitive, mesh_name};
-use super::{SceneObject, Warnings, lights};
+use super::{SceneNode, SceneObject, Warnings, lights};
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::lamp::{LightNames, PunctualLights};
@@ -24,6 +24,7 @@ pub(super) struct Flat {
     pub(super) triangles: Vec<Triangle>,
     pub(super) colors: CornerValues,
     pub(super) tangents: CornerValues,
+    pub(super) nodes: Vec<SceneNode>,
     pub(super) objects: Vec<SceneObject>,
     pub(super) lights: PunctualLights,
     pub(super) light_names: LightNames,
@@ -32,6 +33,7 @@ pub(super) struct Flat {
 /// What a node hands down to its children.
 #[derive(Clone)]
 struct Inherited {
+    node: Option<u32>,
     world: DMat4,
     class: Option<Rc<str>>,
     instance: Option<Rc<str>>,
@@ -54,7 +56,7 @@ pub(super) fn flatten(
     let mut left = max_triangles;
     let mut degenerate = 0u64;
 
-    let root = Inherited { world: DMat4::IDENTITY, class: None, instance: None };
+    let root = Inherited { node: None, world: DMat4::IDENTITY, class: None, instance: None };
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
@@ -67,15 +69,26 @@ pub(super) fn flatten(
             return Err(SceneErrorKind::Node(text.into()).at(place));
         }
         let mesh = node.mesh();
-        let label = |key: &str, above: &Option<Rc<str>>| {
+        let label = |key: &str| {
             let of_mesh = || mesh.as_ref().and_then(|mesh| extra(mesh.extras(), key));
-            extra(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+            extra(node.extras(), key).or_else(of_mesh)
         };
+        let (class, instance) = (label("class"), label("instance"));
+        let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
         let here = Inherited {
+            node: Some(flat.nodes.len() as u32),
             world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
-            class: label("class", &above.class),
-            instance: label("instance", &above.instance),
+            class: class.clone().or_else(|| above.class.clone()),
+            instance: instance.clone().or_else(|| above.instance.clone()),
         };
+        flat.nodes.push(SceneNode {
+            name: name.clone(),
+            parent: above.node,
+            class: owned(&class),
+            instance: owned(&instance),
+            keypoints: keypoints(node.extras()),
+            world: here.world,
+        });
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
             lights::place(&light, (&name, &here.world), out, warnings)?;
@@ -93,9 +106,10 @@ pub(super) fn flatten(
                 }
             };
             let object = flat.objects.len() as u32;
-            let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
             flat.objects.push(SceneObject {
+                node: flat.nodes.len() as u32 - 1,
                 name: name.clone(),
+                mesh: mesh.name().map(str::to_owned),
                 class: owned(&here.class),
                 instance: owned(&here.instance),
             });
@@ -125,9 +139,22 @@ fn node_name(node: &Node<'_>) -> String {
 }
 
 /// A string in `extras`.
-fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
     let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
     extras.get(key)?.as_str().map(Rc::from)
+}
+
+/// Points in `extras` that are three finite numbers.
+fn keypoints(extras: &gltf::json::Extras) -> Vec<(String, DVec3)> {
+    let Some(extras) = extras.as_ref() else { return Vec::new() };
+    let Ok(extras) = serde_json::from_str::<serde_json::Value>(extras.get()) else { return Vec::new() };
+    let own = extras["keypoint"].as_str().map(|name| (name.to_owned(), DVec3::ZERO));
+    let listed = extras["keypoints"].as_object().into_iter().flatten().filter_map(|(name, point)| {
+        let [x, y, z] = point.as_array()?.as_slice() else { return None };
+        let point = DVec3::new(x.as_f64()?, y.as_f64()?, z.as_f64()?);
+        point.is_finite().then(|| (name.clone(), point))
+    });
+    own.into_iter().chain(listed).collect()
 }
 
 /// A node's own matrix, in f64.
