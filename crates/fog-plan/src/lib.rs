@@ -20,6 +20,7 @@ mod fog_sources;
 mod frame;
 mod identity;
 mod include;
+mod labels;
 mod light_groups;
 mod load;
 mod merge;
@@ -46,6 +47,7 @@ pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;

@@ -6,6 +6,7 @@
 mod analog;
 mod equiangular;
 pub mod features;
+pub mod flow;
 mod groups;
 mod layer_light;
 mod lights;
@@ -17,5 +18,9 @@ pub mod replay;
 mod rounds;
 pub mod settings;
 mod shared;
+pub mod surface_truth;
 pub mod truth;
 pub mod watch;
+
+#[cfg(test)]
+mod truth_tests;

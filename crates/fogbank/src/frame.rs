@@ -4,6 +4,7 @@ use crate::denoise;
 use crate::error::Error;
 use crate::exposure;
 use crate::fog::Fog;
+use crate::labels;
 use crate::lighting::{DistantLights, distant_lights, light_groups};
 use crate::record::record;
 use crate::resources::Resources;
@@ -29,6 +30,8 @@ pub struct Rendered {
     pub exposure: f64,
     /// The picture without its noise, if the frame asks for it.
     pub denoised: Option<DenoisedPicture>,
+    /// Records of the things in the picture, if the frame asks for them.
+    pub objects: Option<serde_json::Value>,
 }
 
 /// Camera of a frame.
@@ -97,10 +100,12 @@ pub(crate) fn finish(
     spec: &FrameSpec,
     resources: &Resources,
     (scene, fog): (&Scene, Option<&Fog>),
-    frame: Frame,
+    mut frame: Frame,
     config_digest: &str,
 ) -> Result<Rendered, Error> {
     let camera = camera(&spec.camera, &spec.sensor);
+    let labels = labels::labels(spec, scene)?;
+    frame.truth.surface = labels::surfaces(spec, scene, &camera, labels.as_ref());
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     let exposure = exposure::factor(spec, &frame);
     exposure::write(spec, exposure, &mut record);
@@ -113,5 +118,6 @@ pub(crate) fn finish(
     let denoiser = resources.denoiser(spec)?;
     let denoised =
         denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
-    Ok(Rendered { frame, record, camera, exposure, denoised })
+    let objects = None;
+    Ok(Rendered { frame, record, camera, exposure, denoised, objects })
 }

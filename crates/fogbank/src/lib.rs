@@ -26,6 +26,7 @@ mod exposure;
 mod fog;
 mod forecast;
 mod frame;
+mod labels;
 mod lighting;
 mod phase;
 mod progress;

@@ -7,7 +7,7 @@ use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
 use crate::shared::{render_set, share_sets};
-use crate::{CODE_DIGEST, changed_files, frame};
+use crate::{CODE_DIGEST, changed_files, frame, labels};
 use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
 use fog_plan::{FrameSpec, Plan};
 use fog_tracer::render::Work;
@@ -76,6 +76,7 @@ pub fn sweep(
     }
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
+    warn_of_unknown_classes(selected.iter().map(|&i| &frames[i]), resources, progress);
     // If not one of them can be put together, that is the configuration's fault and not a frame's.
     let mut refused = None;
     for &i in &selected {
@@ -213,6 +214,22 @@ fn warn_of_unknown_lights<'f>(
     }
 }
 
+/// Says once for each scene what is odd about its classes.
+fn warn_of_unknown_classes<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut seen = BTreeSet::new();
+    for frame in frames.filter(|frame| labels::are_wanted(frame)) {
+        if seen.insert(frame.scene.as_ref().map(|scene| &scene.file)) {
+            for text in labels::complaints(frame, resources) {
+                progress.event(Event::Warning(text));
+            }
+        }
+    }
+}
+
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
@@ -253,12 +270,14 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error>
         "mode": plan.mode(),
     });
     let config_yaml = plan.resolved_yaml();
+    let classes = labels::classes_json(frames);
     let info = DataSetInfo {
         name: plan.name(),
         config_yaml: &config_yaml,
         config_digest: &plan.config_digest(),
         code_digest: CODE_DIGEST,
         plan: plan_frames,
+        classes: classes.as_ref(),
         details: &details,
     };
     let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
@@ -279,6 +298,7 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64
         frame: &rendered.frame,
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
+        objects: rendered.objects.as_ref(),
         exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,

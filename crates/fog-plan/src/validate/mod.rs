@@ -3,6 +3,7 @@
 mod droplets;
 mod exposure;
 mod fog;
+mod labels;
 mod light_groups;
 mod lighting;
 mod patchiness;
@@ -17,6 +18,7 @@ pub(crate) use view::DEFAULT_MAX_SAMPLES;
 use crate::{
     error::{Problem, Problems},
     frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SceneSpec, SensorSpec},
+    labels::LabelsSpec,
     node::Node,
     ranges::Range,
     read::read,
@@ -33,6 +35,8 @@ pub(crate) struct Content {
     pub(crate) sensor: SensorSpec,
     pub(crate) lighting: LightingSpec,
     pub(crate) render: RenderSpec,
+    #[serde(skip_serializing_if = "LabelsSpec::is_default")]
+    pub(crate) labels: LabelsSpec,
     pub(crate) outputs: Vec<Output>,
 }
 
@@ -68,6 +72,7 @@ impl Check<'_> {
         let render = self.render(&file.render);
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let camera = self.camera(&file.camera, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
+        let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
         let outputs = self.outputs(&file.outputs);
         Some(Content {
             scene: scene?,
@@ -76,6 +81,7 @@ impl Check<'_> {
             sensor: sensor?,
             lighting: lighting?,
             render: render?,
+            labels: labels?,
             outputs: outputs?,
         })
     }

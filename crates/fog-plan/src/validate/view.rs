@@ -149,5 +149,11 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
         OutputFile::Denoised => Output::Denoised,
+        OutputFile::Normals => Output::Normals,
+        OutputFile::Position => Output::Position,
+        OutputFile::Albedo => Output::Albedo,
+        OutputFile::Semantic => Output::Semantic,
+        OutputFile::Instance => Output::Instance,
+        OutputFile::Objects => Output::Objects,
     }
 }

@@ -77,6 +77,8 @@ impl ClassTable {
     pub const UNLABELED: u8 = 0;
     /// Number of the sky.
     pub const SKY: u8 = 23;
+    /// Number of pixels that the lens does not show: `out of roi`.
+    pub const UNSEEN: u8 = 3;
     /// Most classes beside the built-in ones: ids are bytes.
     pub const MOST_CUSTOM: usize = 256 - CITYSCAPES.len() - OWN.len();
 
