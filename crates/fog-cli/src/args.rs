@@ -10,6 +10,7 @@ mod number;
 mod optics;
 mod replay;
 mod scene;
+mod sweep;
 mod visibility;
 
 pub(crate) use compare::CompareArgs;
@@ -21,9 +22,10 @@ pub(crate) use mie::MieArgs;
 pub(crate) use optics::OpticsArgs;
 pub(crate) use replay::ReplayArgs;
 pub(crate) use scene::{ApproachArg, SceneArgs, SceneCommand, SceneFileArgs, StyleArg};
+pub(crate) use sweep::SweepArgs;
 pub(crate) use visibility::{EditionArg, VisibilityArgs};
 
-use clap::{Args as ClapArgs, Parser, Subcommand};
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Synthetic camera data in fog whose every number can be traced to physics.
@@ -45,7 +47,7 @@ Examples:
   fogbank visibility --model advection --height 180           how far one sees in that fog, by every law
   fogbank optics --model advection --height 180 --altitude 2 --wavelength 550 905   extinction, albedo, g, water
 
-Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files.";
+Exit codes: 0 success, 1 a frame failed, 2 wrong arguments, configuration or files, 130 stopped on request.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -106,15 +108,18 @@ pub(crate) struct WorkArgs {
     /// Print errors only.
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    /// How to tell what happens: for people, or as lines of JSON on standard output.
+    #[arg(long, value_enum, default_value = "text", value_name = "FORM")]
+    pub(crate) log: LogArg,
 }
 
-/// Arguments of `sweep`.
-#[derive(Debug, ClapArgs)]
-pub(crate) struct SweepArgs {
-    #[command(flatten)]
-    pub(crate) config: ConfigArgs,
-    #[command(flatten)]
-    pub(crate) work: WorkArgs,
+/// How to tell what happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LogArg {
+    /// Words and a progress bar.
+    Text,
+    /// One JSON object for each event.
+    Json,
 }
 
 /// Arguments of `render`.

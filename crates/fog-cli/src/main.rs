@@ -1,9 +1,12 @@
 //! `fogbank`: the command line. One file per subcommand under `commands`.
 //!
-//! Exit codes: 0 all is well, 1 a frame failed, 2 the user's mistake (arguments, configuration, files).
+//! Exit codes: 0 all is well, 1 a frame failed, 2 the user's mistake (arguments, configuration, files), 130 stopped on
+//! request.
 
 mod args;
 mod commands;
+mod json_log;
+mod listener;
 mod print;
 mod report;
 mod rows;
@@ -36,8 +39,11 @@ fn main() -> ExitCode {
             // Our own messages hold their causes already.
             let message = ours.map_or_else(|| format!("{error:#}"), ToString::to_string);
             print::complaint(format_args!("fogbank: {message}"));
-            let failed_frame = ours.is_some_and(|e| !e.is_user_mistake());
-            ExitCode::from(if failed_frame { 1 } else { 2 })
+            ExitCode::from(match ours {
+                Some(fogbank::Error::Cancelled) => 130,
+                Some(e) if !e.is_user_mistake() => 1,
+                _ => 2,
+            })
         }
     }
 }

@@ -7,7 +7,6 @@ use fogbank::{Event, Progress, TableOrigin};
 use indicatif::{HumanBytes, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Paths per second and thread that an estimate before rendering counts with: the quickstart's mean where it was measured
@@ -62,7 +61,6 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
 pub(crate) struct Reporter {
     quiet: bool,
     bar: ProgressBar,
-    failures: AtomicU64,
     line: Mutex<Line>,
 }
 
@@ -82,17 +80,7 @@ impl Reporter {
         let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let now = Instant::now();
         let line = Line { started: now, printed: now, paths: 0, total: 0, frames: 0, todo: 0 };
-        Self {
-            quiet,
-            bar: ProgressBar::with_draw_target(None, target),
-            failures: AtomicU64::new(0),
-            line: Mutex::new(line),
-        }
-    }
-
-    /// Frames that failed.
-    pub(crate) fn failures(&self) -> u64 {
-        self.failures.load(Ordering::Relaxed)
+        Self { quiet, bar: ProgressBar::with_draw_target(None, target), line: Mutex::new(line) }
     }
 
     /// Takes the bar off the screen.
@@ -132,7 +120,6 @@ impl Reporter {
         self.bar.reset();
         self.bar.set_style(style);
         self.bar.set_length(paths);
-        self.bar.enable_steady_tick(Duration::from_millis(500));
         if let Ok(mut line) = self.line.lock() {
             let now = Instant::now();
             *line = Line { started: now, printed: now, paths: 0, total: paths, frames: 0, todo };
@@ -179,14 +166,19 @@ impl Progress for Reporter {
                 self.say(&format!("Open Image Denoise {version}: {}", path.display()));
             }
             Event::Warning(text) => self.say(&format!("warning: {text}")),
-            Event::Ready { done, paths, todo } => {
+            Event::Ready { done, failed, paths, todo } => {
                 if done > 0 {
                     self.say(&format!("{done} frames are done already, {todo} to go"));
+                }
+                if failed > 0 {
+                    let what = "failed before and are not tried again without --retry-failed";
+                    self.bar.suspend(|| print::complaint(format_args!("{failed} frames {what}")));
                 }
                 self.begin(paths, todo);
             }
             Event::FrameStarted { id } => self.bar.set_message(id.to_owned()),
             Event::Paths(n) => self.count(n),
+            Event::Waiting => self.bar.tick(),
             Event::Expected(paths) => {
                 self.bar.set_length(paths);
                 if let Ok(mut line) = self.line.lock() {
@@ -198,7 +190,6 @@ impl Progress for Reporter {
                 self.say(&format!("{n:>7}  {id}  {seconds:.1} s, noise {:.1} %", 100.0 * noise));
             }
             Event::FrameFailed { id, reason, paths: _ } => {
-                self.failures.fetch_add(1, Ordering::Relaxed);
                 let n = self.next_frame();
                 self.bar.suspend(|| print::complaint(format_args!("{n:>7}  {id}  FAILED: {reason}")));
             }

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use crate::header::{FORMAT, FORMAT_VERSION, Header};
 use crate::marker::{Check, FileEntry, Marker};
 use crate::names::{CLASSES, CONFIG, HEADER, Kind, PLAN};
+use crate::opening::{self, Opening};
 use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan};
 
 /// What a data set is made from.
@@ -81,25 +82,26 @@ impl Counts {
 #[derive(Debug)]
 pub struct DataSet {
     dir: PathBuf,
-    config_digest: String,
-    code_digest: String,
+    header: Header,
     plan: Vec<PlanFrame>,
     places: HashMap<String, usize>,
 }
 
 impl DataSet {
-    /// Begins a data set in a new or empty folder, or goes on with the same one; removes what killed writers left.
+    /// Begins a data set in a new or empty folder, or goes on with the same one; removes what killed writers left. `opening`
+    /// says what is to become of another one.
     ///
     /// `differ` gets the text of the folder's `config.resolved.yaml` and names the keys in which it differs from this
     /// configuration; it is only called for the message of [`Error::ConfigDiffers`].
     ///
     /// # Errors
     /// [`Error::ConfigDiffers`], [`Error::CodeDiffers`] or [`Error::PlanDiffers`] when the folder holds another data set,
-    /// [`Error::NotADataSet`] when it holds something else, [`Error::Damaged`] when its `dataset.json` is unreadable,
+    /// [`Error::NotAnExtension`] when it cannot be extended, [`Error::NotADataSet`] when it holds something else, [`Error::Damaged`] when its `dataset.json` is unreadable,
     /// [`Error::BadId`] for ids that cannot name files, [`Error::Io`] when the system refuses.
     pub fn create_or_open(
         dir: &Path,
         info: DataSetInfo<'_>,
+        opening: Opening,
         differ: &dyn Fn(&str) -> Vec<String>,
     ) -> Result<Self> {
         plan::check(&info.plan)?;
@@ -110,21 +112,17 @@ impl DataSet {
 
         fs::create_dir_all(dir).map_err(Error::io("create", dir))?;
         atomic::remove_abandoned(dir)?;
-        let found = claim(dir, &header)?;
-        if found.config_digest != header.config_digest {
-            let keys = fs::read_to_string(dir.join(CONFIG)).map_or_else(|_| Vec::new(), |old| differ(&old));
-            return Err(Error::ConfigDiffers { dir: dir.to_path_buf(), keys });
-        }
-        if found.code_digest != header.code_digest {
-            let (found, expected) = (found.code_digest, header.code_digest);
-            return Err(Error::CodeDiffers { dir: dir.to_path_buf(), found, expected });
-        }
-        if found.files != header.files {
-            return Err(Error::PlanDiffers { dir: dir.to_path_buf() });
+        let mut found = claim(dir, &header)?;
+        if !found.is_of_one_data_set(&header) {
+            found = match opening {
+                Opening::Resume => return Err(difference(dir, found, header, differ)),
+                Opening::Overwrite => opening::replace(dir, header)?,
+                Opening::Extend => opening::extend(dir, &found, header, &info.plan)?,
+            };
         }
 
         // A process that was killed after claiming the folder may have left these out.
-        for (entry, (_, text)) in header.files.iter().zip(&texts) {
+        for (entry, (_, text)) in found.files.iter().zip(&texts) {
             if entry.fault(dir, Check::Hash).is_some() {
                 atomic::write(dir, &entry.name, text)?;
             }
@@ -132,13 +130,7 @@ impl DataSet {
         atomic::sync_dir(dir)?;
 
         let places = info.plan.iter().enumerate().map(|(i, frame)| (frame.id.clone(), i)).collect();
-        Ok(Self {
-            dir: dir.to_path_buf(),
-            config_digest: header.config_digest,
-            code_digest: header.code_digest,
-            plan: info.plan,
-            places,
-        })
+        Ok(Self { dir: dir.to_path_buf(), header: found, plan: info.plan, places })
     }
 
     /// The folder.
@@ -169,8 +161,8 @@ impl DataSet {
     fn is_complete(&self, id: &str, check: Check) -> bool {
         let Ok(frame) = self.frame(id) else { return false };
         let Ok(Some(marker)) = Marker::read(&self.dir, id) else { return false };
-        marker.config_digest == self.config_digest
-            && marker.code_digest == self.code_digest
+        self.header.takes(&marker.config_digest)
+            && marker.code_digest == self.header.code_digest
             && marker.faults(&self.dir, frame.outputs, check).is_empty()
     }
 
@@ -216,8 +208,8 @@ impl DataSet {
         atomic::sync_dir(&self.dir)?;
         let marker = json!(Marker {
             id: files.id.to_owned(),
-            config_digest: self.config_digest.clone(),
-            code_digest: self.code_digest.clone(),
+            config_digest: self.header.config_digest.clone(),
+            code_digest: self.header.code_digest.clone(),
             files: entries,
         });
         atomic::write(&self.dir, &Kind::Done.file(files.id), &encode::pretty(&marker))?;
@@ -237,6 +229,23 @@ impl DataSet {
         let content = encode::pretty(&json!({ "id": id, "reason": reason }));
         atomic::write(&self.dir, &Kind::Failed.file(id), &content)?;
         atomic::sync_dir(&self.dir)
+    }
+
+    /// Forgets that a frame is done, or that it failed, so that it is missing.
+    ///
+    /// # Errors
+    /// [`Error::UnknownFrame`], or [`Error::Io`] when the system refuses.
+    pub fn forget(&self, id: &str) -> Result<()> {
+        self.frame(id)?;
+        [Kind::Done, Kind::Failed].iter().try_for_each(|kind| atomic::remove(&self.dir.join(kind.file(id))))
+    }
+
+    /// Removes what killed writers left; frames that are being written are not touched.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when the system refuses.
+    pub fn clean(&self) -> Result<()> {
+        atomic::remove_abandoned(&self.dir)
     }
 
     /// Writes `index.csv` from what the folder holds now, and counts.
@@ -268,6 +277,19 @@ impl DataSet {
     }
 }
 
+/// Why the folder's data set is not ours.
+fn difference(dir: &Path, found: Header, ours: Header, differ: &dyn Fn(&str) -> Vec<String>) -> Error {
+    let dir = dir.to_path_buf();
+    if found.config_digest != ours.config_digest {
+        let keys = fs::read_to_string(dir.join(CONFIG)).map_or_else(|_| Vec::new(), |old| differ(&old));
+        return Error::ConfigDiffers { dir, keys };
+    }
+    if found.code_digest != ours.code_digest {
+        return Error::CodeDiffers { dir, found: found.code_digest, expected: ours.code_digest };
+    }
+    Error::PlanDiffers { dir }
+}
+
 fn header_of(info: &DataSetInfo<'_>, texts: &[(&str, Vec<u8>)]) -> Header {
     Header {
         format: FORMAT.to_owned(),
@@ -275,6 +297,7 @@ fn header_of(info: &DataSetInfo<'_>, texts: &[(&str, Vec<u8>)]) -> Header {
         name: info.name.to_owned(),
         frames: info.plan.len() as u64,
         config_digest: info.config_digest.to_owned(),
+        extends: Vec::new(),
         code_digest: info.code_digest.to_owned(),
         files: texts.iter().map(|(name, text)| FileEntry::of((*name).to_owned(), text)).collect(),
         details: info.details.clone(),

@@ -70,6 +70,15 @@ pub enum Error {
         /// The folder.
         dir: PathBuf,
     },
+    /// The plan lacks a frame that the folder has.
+    #[error("{} has a frame {frame} that is not in this plan: a data set is extended by adding values to its axes; use \
+        another folder, or replace this data set", dir.display())]
+    NotAnExtension {
+        /// The folder.
+        dir: PathBuf,
+        /// The frame.
+        frame: String,
+    },
     /// The folder is in use by something else.
     #[error("{} is not empty and holds no Fogbank data set (it has `{found}`); use an empty or a new folder",
         dir.display())]

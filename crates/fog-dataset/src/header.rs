@@ -1,4 +1,4 @@
-//! `dataset.json`: what the folder holds. Written first and never replaced, it claims the folder.
+//! `dataset.json`: what the folder holds. Written first, it claims the folder.
 
 use std::fs;
 use std::path::Path;
@@ -27,6 +27,9 @@ pub struct Header {
     pub frames: u64,
     /// Digest of the configuration.
     pub config_digest: String,
+    /// Digests of the configurations that this one extends, from the first on; frames made from them count as this one's.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extends: Vec<String>,
     /// Digest of the code.
     pub code_digest: String,
     /// `config.resolved.yaml`, `plan.jsonl` and, where frames have classes, `classes.json`, with their hashes.
@@ -36,6 +39,17 @@ pub struct Header {
 }
 
 impl Header {
+    /// Whether both are of the same frames, made by the same program.
+    pub(crate) fn is_of_one_data_set(&self, other: &Self) -> bool {
+        (&self.config_digest, &self.code_digest, &self.files)
+            == (&other.config_digest, &other.code_digest, &other.files)
+    }
+
+    /// Whether a frame made from this configuration belongs to the data set.
+    pub(crate) fn takes(&self, config_digest: &str) -> bool {
+        self.config_digest == config_digest || self.extends.iter().any(|digest| digest == config_digest)
+    }
+
     /// Reads `dataset.json`; `None` when there is none.
     pub(crate) fn read(dir: &Path) -> Result<Option<Self>> {
         let path = dir.join(HEADER);

@@ -35,6 +35,12 @@ impl Kind {
     /// which has their hashes, the record is written last.
     pub(crate) const DENOISED: [Self; 2] = [Self::Denoised, Self::DenoisedImage];
 
+    /// Every kind; the marker first, so that a frame that is being removed does not count as done.
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        let rest = [Self::Denoising, Self::Timing, Self::Failed];
+        [Self::Done].into_iter().chain(Self::HASHED).chain(Self::DENOISED).chain(rest)
+    }
+
     /// File name of this kind for a frame.
     pub(crate) fn file(self, id: &str) -> String {
         let suffix = match self {

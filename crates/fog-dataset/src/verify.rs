@@ -77,15 +77,16 @@ pub fn verify(dir: &Path) -> Result<Report> {
 
 /// A marker of another configuration or program.
 fn foreign(marker: &Marker, header: &Header) -> Vec<(String, String)> {
+    let fault = |what, found: &str, expected: &str| {
+        let reason = format!("is of {what} {found}, but the data set of {expected}");
+        (Kind::Done.file(&marker.id), reason)
+    };
     let mut faults = Vec::new();
-    for (what, found, expected) in [
-        ("configuration", &marker.config_digest, &header.config_digest),
-        ("code", &marker.code_digest, &header.code_digest),
-    ] {
-        if found != expected {
-            let reason = format!("is of {what} {found}, but the data set of {expected}");
-            faults.push((Kind::Done.file(&marker.id), reason));
-        }
+    if !header.takes(&marker.config_digest) {
+        faults.push(fault("configuration", &marker.config_digest, &header.config_digest));
+    }
+    if marker.code_digest != header.code_digest {
+        faults.push(fault("code", &marker.code_digest, &header.code_digest));
     }
     faults
 }

@@ -12,7 +12,7 @@ use crate::{
         NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
         VerticalFile,
     },
-    validate::{DEFAULT_ALBEDO, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
+    validate::{DEFAULT_ALBEDO, DEFAULT_FOV_DEG, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
 
 /// Fills in the defaults that do not depend on other keys.
@@ -62,6 +62,15 @@ pub(crate) fn fill_sky(root: &mut Node) {
         put(sky, "night_luminance_cd_m2", &NIGHT_LUMINANCE_CD_M2);
     }
     put(sky, "ground_albedo", &GROUND_ALBEDO);
+}
+
+/// Fills in the field of view of a pinhole camera without intrinsics. Not when an axis changes lens or intrinsics.
+pub(crate) fn fill_fov(root: &mut Node) {
+    let Some(sensor) = root.child_mut("sensor") else { return };
+    let pinhole = sensor.child("lens").is_none_or(|lens| lens.value == Value::Text("pinhole".to_owned()));
+    if pinhole && sensor.child("intrinsics").is_none() && sensor.child("horizontal_fov_deg").is_none() {
+        add(sensor, "horizontal_fov_deg", &DEFAULT_FOV_DEG.into());
+    }
 }
 
 fn fill_fog(fog: &mut Node) {

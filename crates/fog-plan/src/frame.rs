@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use fog_core::lens::Lens;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     labels::LabelsSpec,
+    lens::{IntrinsicsSpec, LensSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
     sensor::ExposureSpec,
@@ -255,15 +257,26 @@ pub struct CameraSpec {
     pub roll_deg: f64,
 }
 
-/// Image plane of a pinhole camera with square pixels.
+/// Image plane and lens.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
     /// Height in pixels, 1 to 16 384.
     pub height_px: u32,
-    /// Horizontal field of view in degrees, 0.1 to 170.
-    pub horizontal_fov_deg: f64,
+    /// Horizontal field of view in degrees of the lens without its distortion, 0.1 to 170, of a fisheye or an equirectangular
+    /// image to 360. Absent, and then not written, where there are intrinsics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizontal_fov_deg: Option<f64>,
+    /// Focal lengths and principal point as configured; absent, and then not written, where there is a field of view.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intrinsics: Option<IntrinsicsSpec>,
+    /// The lens. Not written where it is a pinhole, so that it is no part of old digests.
+    #[serde(skip_serializing_if = "LensSpec::is_pinhole")]
+    pub lens: LensSpec,
+    /// What all that makes: which direction each image point shows. Not written.
+    #[serde(skip)]
+    pub projection: Lens,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
 }

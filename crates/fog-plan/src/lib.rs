@@ -16,11 +16,13 @@ mod diff;
 mod droplets;
 mod error;
 mod fill;
+mod filter;
 mod fog_sources;
 mod frame;
 mod identity;
 mod include;
 mod labels;
+mod lens;
 mod light_groups;
 mod load;
 mod merge;
@@ -43,11 +45,13 @@ mod yaml;
 
 pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
+pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
+pub use lens::{IntrinsicsSpec, LensSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;

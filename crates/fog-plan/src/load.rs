@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{
     error::{PlanError, Problem, Problems},
-    fill::{fill_model, fill_sections, fill_sky},
+    fill::{fill_fov, fill_model, fill_sections, fill_sky},
     include,
     node::{Node, Value},
     origin::{Origin, Source},
@@ -94,6 +94,11 @@ pub fn parse(text: &str, file_name: &str, sets: &[String]) -> Result<Plan, PlanE
     }
     if !changes("lighting.sky.model") {
         fill_sky(&mut tree);
+    }
+    let lens = |path: &str| path.starts_with("sensor.intrinsics") || path.starts_with("sensor.lens");
+    let mut axes = sweep.iter().flat_map(|sweep| &sweep.axes).flat_map(|axis| &axis.paths);
+    if !axes.any(|path| lens(path)) {
+        fill_fov(&mut tree);
     }
     tree.sort_sections();
     let plan = Plan::new(file.name.unwrap_or_default(), file.seed.unwrap_or(DEFAULT_SEED), tree, sweep);

@@ -18,6 +18,8 @@ pub enum Origin {
     },
     /// A `--set KEY=VALUE` argument; holds `KEY=VALUE`.
     Set(Arc<str>),
+    /// A `--where CONDITION` argument; holds `CONDITION`.
+    Where(Arc<str>),
     /// Nobody wrote it: a default of the schema.
     Default,
 }
@@ -64,6 +66,7 @@ impl fmt::Display for Origin {
         match self {
             Self::File { file, line, column, .. } => write!(f, "{file}:{line}:{column}"),
             Self::Set(argument) => write!(f, "--set {argument}"),
+            Self::Where(condition) => write!(f, "--where {condition}"),
             Self::Default => f.write_str("default"),
         }
     }

@@ -75,6 +75,17 @@ pub enum Error {
         /// Id of the first frame.
         example: String,
     },
+    /// No frame is left to be rendered by what was asked for.
+    #[error("none of the {count} frames {}", if filter.is_empty() { "is selected".to_owned() } else { format!("has {filter}") })]
+    NothingSelected {
+        /// The condition on the frames' values, as it was written.
+        filter: String,
+        /// Number of frames in the plan.
+        count: usize,
+    },
+    /// Worker processes cannot be had, or cannot go on.
+    #[error("workers: {0}")]
+    Workers(String),
     /// A sweep where one frame was expected.
     #[error(
         "{name} is a sweep of {count} frames: name one with --frame ID (see `fogbank plan`), or use `fogbank sweep`"
@@ -89,7 +100,7 @@ pub enum Error {
     #[error("{0}")]
     UnknownPath(String),
     /// The caller asked to stop.
-    #[error("stopped on request")]
+    #[error("stopped on request; run the same command again to go on")]
     Cancelled,
 }
 

@@ -2,28 +2,36 @@
 
 use crate::sweep::path_count;
 use fog_plan::FrameSpec;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Counts paths, and guesses those to come: frames not begun that go by noise take as many times their first samples as
 /// those that were begun.
 #[derive(Debug, Default)]
 pub(crate) struct Forecast {
-    /// Paths of all frames so far, and of the one at work.
-    traced: AtomicU64,
-    frame: AtomicU64,
-    /// First samples of the frame at work if it goes by noise.
-    first: Option<u64>,
+    /// Paths of all frames so far.
+    traced: u64,
+    /// The frames at work, one in each lane.
+    lanes: Vec<Lane>,
     /// Of the finished frames that went by noise: first samples, and all paths.
     finished: (u64, u64),
     /// Of the frames not begun: paths of those with a fixed number, and first samples of the others.
     rest: (u64, u64),
 }
 
+/// Frames that are rendered together.
+#[derive(Clone, Copy, Debug, Default)]
+struct Lane {
+    traced: u64,
+    /// Paths that they will have taken, as far as is known.
+    expected: u64,
+    /// First samples if they go by noise.
+    first: Option<u64>,
+}
+
 impl Forecast {
-    /// Before all these frames.
-    pub(crate) fn new(todo: &[&FrameSpec]) -> Self {
-        let mut forecast = Self::default();
-        todo.iter().for_each(|spec| *forecast.rest_of(spec) += path_count(spec));
+    /// Before all these frames, of which so many lanes are worked on at the same time.
+    pub(crate) fn new<'f>(todo: impl Iterator<Item = &'f FrameSpec>, lanes: usize) -> Self {
+        let mut forecast = Self { lanes: vec![Lane::default(); lanes], ..Self::default() };
+        todo.for_each(|spec| *forecast.rest_of(spec) += path_count(spec));
         forecast
     }
 
@@ -32,34 +40,55 @@ impl Forecast {
     }
 
     /// Frames begin that are rendered together.
-    pub(crate) fn begin(&mut self, set: &[&FrameSpec]) {
+    pub(crate) fn begin(&mut self, lane: usize, set: &[&FrameSpec]) {
         let paths = set.iter().map(|spec| path_count(spec)).sum();
-        set.iter().for_each(|spec| *self.rest_of(spec) -= path_count(spec));
-        self.first = set.iter().any(|spec| spec.render.stop.is_some()).then_some(paths);
-        self.frame = AtomicU64::new(0);
+        self.skip(set);
+        let first = set.iter().any(|spec| spec.render.stop.is_some()).then_some(paths);
+        self.lanes[lane] = Lane { traced: 0, expected: paths, first };
     }
 
-    /// Paths of the frame were traced.
-    pub(crate) fn count(&self, paths: u64) {
-        self.traced.fetch_add(paths, Relaxed);
-        self.frame.fetch_add(paths, Relaxed);
+    /// Paths of the lane's frames were traced.
+    pub(crate) fn count(&mut self, lane: usize, paths: u64) {
+        self.traced += paths;
+        self.lanes[lane].traced += paths;
     }
 
-    /// Paths of the whole sweep, traced and to come, when the frame still needs `left`.
-    pub(crate) fn total(&self, left: u64) -> u64 {
-        let frame = self.frame.load(Relaxed) + left;
-        let (first, all) = self.finished;
-        let (first, all) = self.first.map_or((first, all), |own| (first + own, all + frame));
-        let factor = if first > 0 { (all as f64 / first as f64).max(1.0) } else { 1.0 };
-        self.traced.load(Relaxed) + left + self.rest.0 + (self.rest.1 as f64 * factor) as u64
+    /// The lane's frames still need `left` paths.
+    pub(crate) fn expect(&mut self, lane: usize, left: u64) {
+        self.lanes[lane].expected = self.lanes[lane].traced + left;
     }
 
-    /// The frame is done.
-    pub(crate) fn end(&mut self) {
-        if let Some(first) = self.first.take() {
-            self.finished.0 += first;
-            self.finished.1 += self.frame.load(Relaxed);
+    /// Paths of the whole sweep, traced and to come.
+    pub(crate) fn total(&self) -> u64 {
+        let left: u64 = self.lanes.iter().map(|lane| lane.expected.saturating_sub(lane.traced)).sum();
+        let (mut first, mut all) = self.finished;
+        for lane in &self.lanes {
+            if let Some(own) = lane.first {
+                (first, all) = (first + own, all + lane.expected.max(lane.traced));
+            }
         }
+        let factor = if first > 0 { (all as f64 / first as f64).max(1.0) } else { 1.0 };
+        self.traced + left + self.rest.0 + (self.rest.1 as f64 * factor) as u64
+    }
+
+    /// The lane's frames are done.
+    pub(crate) fn end(&mut self, lane: usize) {
+        let lane = std::mem::take(&mut self.lanes[lane]);
+        if let Some(first) = lane.first {
+            self.finished.0 += first;
+            self.finished.1 += lane.traced;
+        }
+    }
+
+    /// The lane's frames were given up and will be begun again; their paths were traced for nothing.
+    pub(crate) fn give_up(&mut self, lane: usize, set: &[&FrameSpec]) {
+        self.lanes[lane] = Lane::default();
+        set.iter().for_each(|spec| *self.rest_of(spec) += path_count(spec));
+    }
+
+    /// Frames will not be begun.
+    pub(crate) fn skip(&mut self, set: &[&FrameSpec]) {
+        set.iter().for_each(|spec| *self.rest_of(spec) -= path_count(spec));
     }
 }
 
@@ -67,24 +96,45 @@ impl Forecast {
 mod tests {
     use super::*;
 
-    #[test]
-    fn frames_to_come_are_like_those_begun() {
+    fn frames() -> Vec<FrameSpec> {
         let yaml = "version: 1\nname: t\nscene: none\nfog: none\nlighting: day\ncamera: {altitude_m: 1}\n\
                     sensor: {width_px: 10, height_px: 10}\nrender: {samples: 16, noise: 0.1}\n\
                     sweep: {axes: {camera.altitude_m: [1, 2, 3]}}\n";
         let plan = fog_plan::parse(yaml, "t.yaml", &[]).expect("valid plan");
-        let frames: Vec<FrameSpec> = plan.frames().map(|f| f.expect("frame")).collect();
-        let mut forecast = Forecast::new(&frames.iter().collect::<Vec<_>>());
-        assert_eq!(forecast.total(0), 4800);
-        forecast.begin(&[&frames[0]]);
-        forecast.count(1600);
+        plan.frames().map(|f| f.expect("frame")).collect()
+    }
+
+    #[test]
+    fn frames_to_come_are_like_those_begun() {
+        let frames = frames();
+        let mut forecast = Forecast::new(frames.iter(), 1);
+        assert_eq!(forecast.total(), 4800);
+        forecast.begin(0, &[&frames[0]]);
+        forecast.count(0, 1600);
         // Four times the first samples in this frame, and in the two others as well.
-        assert_eq!(forecast.total(4800), 3 * 6400);
-        forecast.count(4800);
-        forecast.end();
-        forecast.begin(&[&frames[1]]);
-        forecast.count(1600);
+        forecast.expect(0, 4800);
+        assert_eq!(forecast.total(), 3 * 6400);
+        forecast.count(0, 4800);
+        forecast.end(0);
+        forecast.begin(0, &[&frames[1]]);
+        forecast.count(0, 1600);
         // Half of that in the second: three times in the mean.
-        assert_eq!(forecast.total(1600), 6400 + 3200 + 4800);
+        forecast.expect(0, 1600);
+        assert_eq!(forecast.total(), 6400 + 3200 + 4800);
+    }
+
+    #[test]
+    fn frames_side_by_side_and_given_up() {
+        let frames = frames();
+        let mut forecast = Forecast::new(frames.iter(), 2);
+        forecast.begin(0, &[&frames[0]]);
+        forecast.begin(1, &[&frames[1]]);
+        forecast.count(0, 1600);
+        forecast.count(1, 800);
+        assert_eq!(forecast.total(), 4800);
+        forecast.expect(1, 2400);
+        assert_eq!(forecast.total(), 1600 + 3200 + 2400);
+        forecast.give_up(1, &[&frames[1]]);
+        assert_eq!(forecast.total(), 2400 + 3200);
     }
 }

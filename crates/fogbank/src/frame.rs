@@ -39,7 +39,7 @@ pub struct Rendered {
 pub fn camera(camera: &CameraSpec, sensor: &SensorSpec) -> Camera {
     let [x, y, z] = camera.position_m.map(|v| v as f32);
     let pose = Pose::new(Vec3A::new(x, y, z), camera.heading_deg, camera.pitch_deg, camera.roll_deg);
-    Camera::new(pose, sensor.width_px, sensor.height_px, sensor.horizontal_fov_deg)
+    Camera { pose, width: sensor.width_px, height: sensor.height_px, lens: sensor.projection }
 }
 
 /// What the tracer is asked for.

@@ -9,14 +9,15 @@
 //! 4. [`sweep`] does so for every frame that is missing and stores it with its record (`fog-dataset`).
 //!
 //! ```no_run
-//! use fogbank::{Resources, Selection, Silent, TableCache};
+//! use fogbank::{Resources, Silent, SweepOptions, TableCache};
 //! let plan = fogbank::plan::load("configs/quickstart.yaml".as_ref(), &[])?;
 //! let mut resources = Resources::new(TableCache::new("tables/cache"));
-//! let counts = fogbank::sweep(&plan, &Selection::All, "out".as_ref(), &mut resources, &Silent)?;
+//! let counts = fogbank::sweep(&plan, &SweepOptions::default(), "out".as_ref(), &mut resources, &Silent)?;
 //! assert_eq!(counts.failed, 0);
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+mod camera_record;
 mod changed_files;
 mod compare;
 mod denoise;
@@ -34,6 +35,7 @@ mod record;
 mod reference;
 mod replay;
 mod resources;
+mod selection;
 mod shared;
 mod skies;
 mod sources;
@@ -42,6 +44,9 @@ mod sweep;
 mod table_cache;
 mod tables;
 mod text_files;
+mod tracker;
+mod work;
+mod workers;
 
 pub use compare::{
     Compared, FramePair, LeftOut, MatchedFrames, Matching, Means, compare_pictures, match_frames,
@@ -60,10 +65,12 @@ pub use progress::{Event, Progress, Silent};
 pub use reference::Reference;
 pub use replay::{Replayed, replay};
 pub use resources::Resources;
+pub use selection::{Selection, Shard};
 pub use shared::share_sets;
 pub use sources::load_model;
-pub use sweep::{Selection, most_paths, output_set, path_count, sweep};
+pub use sweep::{SweepOptions, most_paths, output_set, path_count, sweep};
 pub use table_cache::{Stored, TableCache, TableOrigin};
+pub use workers::Workers;
 
 /// Digest of the sources, dependencies and tables that this program was built from: frames of equal specification and
 /// equal digest have equal bytes.

@@ -42,6 +42,8 @@ pub enum Event<'a> {
     Ready {
         /// Frames found done.
         done: usize,
+        /// Frames found failed that are not tried again.
+        failed: usize,
         /// Paths to trace in all frames to come; of frames that are sampled by noise, the first ones.
         paths: u64,
         /// Frames to be rendered.
@@ -57,6 +59,8 @@ pub enum Event<'a> {
     /// So many paths are now expected in all frames together, those already traced among them; heard where sampling goes
     /// by noise, so that their number shows only on the way.
     Expected(u64),
+    /// Nothing happened for a while; heard while other processes work.
+    Waiting,
     /// A frame is stored.
     FrameDone {
         /// Its id.

@@ -1,9 +1,9 @@
 //! The metadata of a frame: everything that it depends on, and what its camera and fog were, with units in the keys.
 
 use crate::CODE_DIGEST;
+use crate::camera_record::{depth_convention, intrinsics_json, pose_json, quaternion_json};
 use crate::denoise;
 use crate::fog::Fog;
-use fog_core::lens::Intrinsics;
 use fog_film::{Channels, Frame};
 use fog_plan::FrameSpec;
 use fog_scene::camera::Camera;
@@ -41,14 +41,14 @@ pub(crate) fn record(
         state
     });
     value["fog_state"] = layer.unwrap_or(Value::Null);
-    value["camera"]["world_from_camera"] = pose_json(camera);
-    value["camera"]["quaternion_wxyz"] = quaternion_json(camera);
+    value["camera"]["world_from_camera"] = pose_json(&camera.pose);
+    value["camera"]["quaternion_wxyz"] = quaternion_json(&camera.pose);
     value["camera"]["axes"] = json!("OpenCV: x right, y down, z forward; world +Y up, metres");
-    value["sensor"]["intrinsics"] = intrinsics_json(camera);
+    value["sensor"]["intrinsics"] = intrinsics_json(&camera.lens);
     value["sensor"]["encoding"] = json!("sRGB of exposure × linear radiance, clipped to [0, 1]");
     value["conventions"] = json!({
         "radiance": "relative to D65: a light of scalar radiance x is recorded as R = G = B = x",
-        "depth": "planar z along the camera axis, m; +inf for sky",
+        "depth": depth_convention(&camera.lens),
         "distance": "range from the camera, m; +inf for sky",
         "transmittance": "exp(-optical depth) of the pixel-centre ray to the first surface or out of the fog",
         "transmittance_wavelengths_nm": match frame.channels {
@@ -106,30 +106,4 @@ fn noise_json(spec: &FrameSpec, frame: &Frame) -> Value {
                        luminance) where that is more",
     });
     value
-}
-
-/// 4×4 camera→world, row by row.
-fn pose_json(camera: &Camera) -> Value {
-    let m = camera.pose.world_from_camera();
-    json!((0..4).map(|r| m.row(r).to_array()).collect::<Vec<_>>())
-}
-
-fn quaternion_json(camera: &Camera) -> Value {
-    let q = fog_core::Quat::from_mat4(&camera.pose.world_from_camera());
-    json!([q.w, q.x, q.y, q.z])
-}
-
-/// Intrinsics in OpenCV's convention: pixel centres at integer coordinates.
-fn intrinsics_json(camera: &Camera) -> Value {
-    let Some(Intrinsics { fx_px, fy_px, cx_px, cy_px }) = camera.lens.intrinsics() else {
-        return Value::Null;
-    };
-    json!({
-        "fx_px": fx_px,
-        "fy_px": fy_px,
-        "cx_px": cx_px,
-        "cy_px": cy_px,
-        "convention": "OpenCV: pixel centres at integer coordinates",
-        "distortion": "none",
-    })
 }

@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::frame::{camera, scene, settings};
 use crate::progress::Progress;
 use crate::resources::Resources;
+use crate::selection::find;
 use crate::shared::share_sets;
-use crate::sweep::Selection;
 use fog_core::spectrum::Spectrum;
 use fog_plan::{FrameSpec, Plan};
 use fog_scene::scene::Scene;
@@ -32,15 +32,17 @@ pub struct Replayed {
 /// cannot be had.
 pub fn replay(
     plan: &Plan,
-    selection: &Selection,
+    frame: Option<&str>,
     pixel: [u32; 2],
     number: u64,
     resources: &mut Resources,
     progress: &dyn Progress,
 ) -> Result<Replayed, Error> {
     let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
-    let [index] = selection.indices(&frames)?[..] else {
-        return Err(Error::NotOneFrame { name: plan.name().to_owned(), count: frames.len() });
+    let index = match frame {
+        Some(frame) => find(frame, &frames)?,
+        None if frames.len() == 1 => 0,
+        None => return Err(Error::NotOneFrame { name: plan.name().to_owned(), count: frames.len() }),
     };
     let spec = frames[index].clone();
     let ([x, y], [width, height]) = (pixel, [spec.sensor.width_px, spec.sensor.height_px]);

@@ -1,166 +1,149 @@
 //! All frames of a plan, or some of them, into a data set.
 
 use crate::error::Error;
-use crate::forecast::Forecast;
-use crate::frame::{Rendered, render_frame};
+use crate::frame::Rendered;
 use crate::lighting::pattern;
 use crate::progress::{Event, Progress};
 use crate::resources::Resources;
-use crate::shared::{render_set, share_sets};
-use crate::{CODE_DIGEST, changed_files, frame, labels};
-use fog_dataset::{Attribute, Counts, DataSet, DataSetInfo, FrameFiles, OutputSet, PlanFrame};
+use crate::selection::Selection;
+use crate::tracker::Tracker;
+use crate::work::{Job, Report};
+use crate::workers::{self, Workers};
+use crate::{CODE_DIGEST, camera_record, changed_files, frame, labels};
+use fog_dataset::{
+    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
+};
 use fog_plan::{FrameSpec, Plan};
-use fog_tracer::render::Work;
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::time::Instant;
 
-/// Which of a plan's frames are to be rendered.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Selection {
-    /// All of them.
-    #[default]
-    All,
-    /// The one with this id, index, or unambiguous beginning of an id.
-    One(String),
+/// How a sweep goes about its work.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SweepOptions {
+    /// Which frames.
+    pub selection: Selection,
+    /// What becomes of a data set that is there already.
+    pub opening: Opening,
+    /// Whether frames whose failure is on record are tried again.
+    pub retry_failed: bool,
+    /// Processes to work with; none: the current rayon pool of this one.
+    pub workers: Option<Workers>,
 }
 
-impl Selection {
-    /// Indices of the selected frames.
-    pub(crate) fn indices(&self, frames: &[FrameSpec]) -> Result<Vec<usize>, Error> {
-        let Self::One(wanted) = self else { return Ok((0..frames.len()).collect()) };
-        let exact = frames.iter().position(|f| f.id == *wanted);
-        let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());
-        // A number is an index and nothing else: a job array that counts too far must not render some frame twice.
-        let by_prefix = || {
-            if wanted.bytes().all(|b| b.is_ascii_digit()) {
-                return None;
-            }
-            let mut matches = (0..frames.len()).filter(|&i| frames[i].id.starts_with(wanted.as_str()));
-            matches.next().filter(|_| matches.next().is_none())
-        };
-        exact.or_else(by_index).or_else(by_prefix).map(|i| vec![i]).ok_or_else(|| Error::UnknownFrame {
-            wanted: wanted.clone(),
-            count: frames.len(),
-            example: frames[0].id.clone(),
-        })
-    }
-}
-
-/// Renders what is missing of the selected frames into the data set in `dir`, on the current rayon pool.
+/// Renders what is missing of the selected frames into the data set in `dir`.
 ///
 /// A frame that fails is recorded with its reason and the others go on: look at the returned counts.
+///
+/// With [`Workers`] the process is forked, and must have no threads but the caller's.
 ///
 /// # Errors
 /// If nothing can be rendered at all (scene, fog, optics table, denoiser), if `dir` cannot be used, holds another data set or frames
 /// made from other contents of the fogs' files, or if `progress` asked to stop.
 pub fn sweep(
     plan: &Plan,
-    selection: &Selection,
+    options: &SweepOptions,
     dir: &Path,
     resources: &mut Resources,
     progress: &dyn Progress,
 ) -> Result<Counts, Error> {
+    let job = match options.workers {
+        None => prepare(plan, options, dir, resources, progress)?,
+        // On threads that have ended when the workers are forked.
+        Some(_) => rayon::ThreadPoolBuilder::new()
+            .build_scoped(rayon::ThreadBuilder::run, |pool| {
+                pool.install(|| prepare(plan, options, dir, resources, progress))
+            })
+            .map_err(|e| Error::Workers(e.to_string()))??,
+    };
+    let outcome = run(&job, options.workers, resources, progress);
+    let counts = match outcome {
+        // What is done stays done: the index says so.
+        Err(Error::Cancelled) => job.finish().and(Err(Error::Cancelled))?,
+        outcome => outcome.and_then(|()| job.finish())?,
+    };
+    progress.event(Event::Finished { counts });
+    Ok(counts)
+}
+
+/// Reads and builds what the frames need and opens the data set.
+fn prepare(
+    plan: &Plan,
+    options: &SweepOptions,
+    dir: &Path,
+    resources: &mut Resources,
+    progress: &dyn Progress,
+) -> Result<Job, Error> {
     // 1. The frames, and what they need.
     let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
-    let selected = selection.indices(&frames)?;
-    let mut wanted = vec![false; frames.len()];
-    selected.iter().for_each(|&i| wanted[i] = true);
-    // A frame takes its whole set to be rendered.
-    let sets: Vec<Vec<usize>> =
-        share_sets(&frames).into_iter().filter(|set| set.iter().any(|&i| wanted[i])).collect();
+    let mut wanted = options.selection.of(&frames)?;
+    let sets = options.selection.sets(&frames, &wanted);
+    let mut in_shard = vec![false; frames.len()];
+    sets.iter().flatten().for_each(|&i| in_shard[i] = true);
+    wanted.iter_mut().zip(in_shard).for_each(|(w, s)| *w &= s);
+    let selected: Vec<usize> = (0..frames.len()).filter(|&i| wanted[i]).collect();
     for &i in sets.iter().flatten() {
         resources.prepare(&frames[i], progress);
     }
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_classes(selected.iter().map(|&i| &frames[i]), resources, progress);
-    // If not one of them can be put together, that is the configuration's fault and not a frame's.
-    let mut refused = None;
-    for &i in &selected {
-        let scene = frame::scene(&frames[i], resources);
-        match scene.and_then(|_| resources.denoiser(&frames[i])) {
-            Ok(_) => {
-                refused = None;
-                break;
-            }
-            Err(e) => refused = refused.or(Some(e)),
-        }
-    }
-    if let Some(e) = refused {
-        return Err(e);
-    }
+    refuse_if_nothing_works(selected.iter().map(|&i| &frames[i]), resources)?;
 
     // 2. The data set: new, or the same one begun earlier.
-    let data_set = open(plan, &frames, dir)?;
+    let data_set = open(plan, &frames, dir, options.opening)?;
     changed_files::refuse(&data_set, &frames, resources)?;
-    selected.iter().filter(|&&i| data_set.is_done(&frames[i].id)).for_each(|&i| wanted[i] = false);
-    let todo: Vec<&Vec<usize>> = sets.iter().filter(|set| set.iter().any(|&i| wanted[i])).collect();
-    let traced: Vec<&FrameSpec> = todo.iter().flat_map(|set| set.iter()).map(|&i| &frames[i]).collect();
-    let (paths, count) = (traced.iter().map(|f| path_count(f)).sum(), wanted.iter().filter(|w| **w).count());
-    progress.event(Event::Ready { done: selected.len() - count, paths, todo: count });
+    if options.opening == Opening::Overwrite {
+        selected.iter().try_for_each(|&i| data_set.forget(&frames[i].id))?;
+    }
+    let (mut done, mut failed) = (0, 0);
+    for &i in &selected {
+        let state = data_set.state(&frames[i].id);
+        wanted[i] = state == FrameState::Missing || state == FrameState::Failed && options.retry_failed;
+        done += usize::from(state == FrameState::Done);
+        failed += usize::from(state == FrameState::Failed && !options.retry_failed);
+    }
+    let todo: Vec<Vec<usize>> = sets.into_iter().filter(|set| set.iter().any(|&i| wanted[i])).collect();
+    let paths = todo.iter().flatten().map(|&i| path_count(&frames[i])).sum();
+    let count = wanted.iter().filter(|w| **w).count();
+    progress.event(Event::Ready { done, failed, paths, todo: count });
+    Ok(Job { frames, wanted, todo, data_set, config_digest: plan.config_digest() })
+}
 
-    // 3. Each missing frame, with those that share its paths: render, store, or record why not.
-    let config_digest = plan.config_digest();
-    let mut forecast = Forecast::new(&traced);
-    for set in todo {
-        let specs: Vec<&FrameSpec> = set.iter().map(|&i| &frames[i]).collect();
-        let first = set.iter().position(|&i| wanted[i]).unwrap_or(0);
-        if !progress.event(Event::FrameStarted { id: &specs[first].id }) {
+/// 3. Each missing frame, with those that share its paths: render, store, or record why not.
+fn run(
+    job: &Job,
+    workers: Option<Workers>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) -> Result<(), Error> {
+    let tracker = Tracker::new(job, workers.map_or(1, |w| w.count), progress);
+    if let Some(workers) = workers {
+        return workers::run(job, resources, workers, &tracker);
+    }
+    for set in 0..job.todo.len() {
+        if !tracker.begin(0, set) {
             return Err(Error::Cancelled);
         }
-        let started = Instant::now();
-        forecast.begin(&specs);
-        let on_work = |work: Work| match work {
-            Work::Traced(n) => {
-                forecast.count(n);
-                progress.event(Event::Paths(n))
-            }
-            Work::Left(n) => progress.event(Event::Expected(forecast.total(n))),
-        };
-        let rendered = guarded(|| match specs[..] {
-            [spec] => render_frame(spec, resources, &config_digest, &on_work).map(|frame| vec![Ok(frame)]),
-            _ => render_set(&specs, resources, &config_digest, &on_work),
-        });
-        forecast.end();
-        let mut rendered = match rendered {
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            Ok(frames) => frames.into_iter().map(|frame| frame.map_err(|e| e.to_string())).collect(),
-            Err(e) => vec![Err(e.to_string()); specs.len()],
-        };
-        // What the set took, by frame.
-        let seconds = started.elapsed().as_secs_f64() / specs.len() as f64;
-        for ((spec, &i), rendered) in specs.iter().zip(set).zip(rendered.drain(..)) {
-            if !wanted[i] {
-                continue;
-            }
-            let begun = Instant::now();
-            let stored = rendered.and_then(|r| {
-                let seconds = seconds + begun.elapsed().as_secs_f64();
-                let stored = store(&data_set, spec, &r, seconds).map_err(|e| e.to_string());
-                stored.map(|()| r.frame.noise_estimate())
-            });
-            match stored {
-                Ok(noise) => {
-                    let seconds = seconds + begun.elapsed().as_secs_f64();
-                    progress.event(Event::FrameDone { id: &spec.id, seconds, noise });
-                }
-                Err(reason) => {
-                    let paths = path_count(spec);
-                    progress.event(Event::FrameFailed { id: &spec.id, reason: &reason, paths });
-                    // If even this cannot be written, the folder is of no use any more.
-                    data_set.record_failure(&spec.id, &reason)?;
-                }
-            }
+        job.work(set, resources, &|report| tracker.report(0, report))?;
+        tracker.report(0, Report::Through);
+    }
+    Ok(())
+}
+
+/// If not one of the frames can be put together, that is the configuration's fault and not a frame's.
+fn refuse_if_nothing_works<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+) -> Result<(), Error> {
+    let mut refused = Ok(());
+    for frame in frames {
+        match frame::scene(frame, resources).and_then(|_| resources.denoiser(frame)) {
+            Ok(_) => return Ok(()),
+            Err(e) => refused = refused.and(Err(e)),
         }
     }
-
-    // 4. The index, from what is there.
-    let counts = data_set.finish()?;
-    progress.event(Event::Finished { counts });
-    Ok(counts)
+    refused
 }
 
 /// Says once for which fog heights a model goes beyond what was measured.
@@ -252,7 +235,7 @@ pub fn output_set(spec: &FrameSpec) -> OutputSet {
     OutputSet { groups: !spec.lighting.groups.is_empty(), ..set }
 }
 
-fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error> {
+fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Result<DataSet, Error> {
     let plan_frames = frames
         .iter()
         .map(|f| PlanFrame {
@@ -281,18 +264,20 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path) -> Result<DataSet, Error>
         details: &details,
     };
     let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
-    Ok(DataSet::create_or_open(dir, info, &differ)?)
+    Ok(DataSet::create_or_open(dir, info, opening, &differ)?)
 }
 
-fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64) -> Result<(), Error> {
-    let pose = rendered.camera.pose.world_from_camera().transpose().to_cols_array();
-    let mut attributes = BTreeMap::from([
-        ("world_from_camera".to_owned(), Attribute::Matrix(pose)),
-        ("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone())),
-    ]);
-    if let Some(intrinsics) = rendered.camera.lens.intrinsics() {
-        attributes.insert("focal_px".to_owned(), Attribute::Number(intrinsics.fx_px as f32));
-    }
+pub(crate) fn store(
+    data_set: &DataSet,
+    spec: &FrameSpec,
+    rendered: &Rendered,
+    seconds: f64,
+) -> Result<(), Error> {
+    let mut attributes: BTreeMap<_, _> = camera_record::attributes(&rendered.camera)
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect();
+    attributes.insert("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone()));
     data_set.write_frame(&FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,
@@ -304,15 +289,4 @@ fn store(data_set: &DataSet, spec: &FrameSpec, rendered: &Rendered, seconds: f64
         attributes: &attributes,
     })?;
     Ok(())
-}
-
-/// Runs the renderer so that a panic in it costs one frame and not the sweep.
-fn guarded<T>(f: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
-    catch_unwind(AssertUnwindSafe(f)).unwrap_or_else(|payload| {
-        let text = payload
-            .downcast_ref::<String>()
-            .cloned()
-            .or_else(|| payload.downcast_ref::<&str>().map(|s| (*s).to_owned()));
-        Err(Error::Panic(text.unwrap_or_else(|| "unknown panic".to_owned())))
-    })
 }

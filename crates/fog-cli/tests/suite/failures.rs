@@ -17,6 +17,11 @@ fn failed(run: &Run, dir: &Path, id: &str, part: &str) {
     assert!(record["reason"].as_str().unwrap().contains(part), "{record}");
 }
 
+/// The sweep once more, with the frames that have failed.
+fn again(dir: &Path) -> Run {
+    run(&["sweep", "c.yaml", "--out", "out", "--retry-failed", "--cache-dir", &cache()], dir)
+}
+
 /// The column `status` of the index.
 fn states(dir: &Path) -> Vec<String> {
     let index = fs::read_to_string(dir.join("out/index.csv")).unwrap();
@@ -35,14 +40,18 @@ fn missing_scene_of_one_frame() {
     let ids = ids(dir.path());
 
     for _ in 0..2 {
-        failed(&sweep(dir.path(), "out"), dir.path(), &ids[0], "late.glb: cannot be read");
+        failed(&again(dir.path()), dir.path(), &ids[0], "late.glb: cannot be read");
         assert_eq!(states(dir.path()), ["failed", "done"]);
         assert!(!dir.path().join(format!("out/{}.done", ids[0])).exists());
         assert_eq!(run(&["verify", "out"], dir.path()).code, Some(1));
     }
 
     fs::copy(here, dir.path().join("late.glb")).unwrap();
-    let said = sweep(dir.path(), "out").ok().stdout;
+    // Without being asked to, no frame that has failed is tried again.
+    let left = sweep(dir.path(), "out");
+    assert_eq!(left.code, Some(1));
+    assert!(left.stderr.contains("1 frames failed before and are not tried again"), "{}", left.stderr);
+    let said = again(dir.path()).ok().stdout;
     assert!(said.contains("2 frames done, 0 failed, 0 missing"), "{said}");
     assert_eq!(states(dir.path()), ["done", "done"]);
     assert!(!names(&dir.path().join("out")).iter().any(|n| n.contains("failed")));
@@ -74,6 +83,6 @@ fn file_of_one_frame_cannot_be_written() {
     failed(&sweep(dir.path(), "out"), dir.path(), &ids[1], "cannot write");
     assert_eq!(states(dir.path()), ["done", "failed", "done"]);
     fs::remove_dir(blocked).unwrap();
-    sweep(dir.path(), "out").ok();
+    again(dir.path()).ok();
     assert_eq!(states(dir.path()), ["done", "done", "done"]);
 }

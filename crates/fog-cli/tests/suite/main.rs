@@ -29,3 +29,4 @@ mod share;
 mod skies;
 mod visibility;
 mod visibility_laws;
+mod workers;

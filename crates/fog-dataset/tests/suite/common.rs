@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use fog_dataset::{
-    Attribute, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, OutputSet, PlanFrame, Result,
+    Attribute, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening, OutputSet, PlanFrame, Result,
 };
 use fog_film::{Channels, Frame, GroupLayer, PixelFilm, SurfaceTruth, Truth};
 use serde_json::{Map, Value, json};
@@ -90,7 +90,9 @@ pub(crate) fn open_with(dir: &Path, config: &str, code: &str, plan: Vec<PlanFram
         classes: Some(&json!([{ "id": 7, "name": "road" }])),
         details: &json!({ "title": "a test" }),
     };
-    DataSet::create_or_open(dir, info, &|old| vec![format!("{} -> {}", old.trim(), config.trim())])
+    DataSet::create_or_open(dir, info, Opening::Resume, &|old| {
+        vec![format!("{} -> {}", old.trim(), config.trim())]
+    })
 }
 
 /// Opens the usual data set with frames `f0`, `f1`, … of all outputs.

@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::exposure::ExposureFile;
+use super::{
+    exposure::ExposureFile,
+    lens::{IntrinsicsFile, LensFile},
+};
 use crate::ranges;
 
 /// Pose of the camera.
@@ -34,7 +37,7 @@ impl Default for CameraFile {
     }
 }
 
-/// Image plane of a pinhole camera with square pixels.
+/// Image plane and lens.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Sensor")]
@@ -45,9 +48,17 @@ pub(crate) struct SensorFile {
     /// Height in pixels.
     #[schemars(range(min = ranges::IMAGE_PX.min, max = ranges::IMAGE_PX.max))]
     pub(crate) height_px: i64,
-    /// Horizontal field of view in degrees.
-    #[schemars(range(min = ranges::FOV_DEG.min, max = ranges::FOV_DEG.max))]
-    pub(crate) horizontal_fov_deg: f64,
+    /// Horizontal field of view in degrees, of the lens without its distortion; up to 170, of a fisheye or an equirectangular
+    /// image up to 360. Absent, and without intrinsics: 60, of a fisheye 180, of an equirectangular image 360.
+    #[schemars(range(min = ranges::FOV_DEG.min, max = ranges::WIDE_FOV_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) horizontal_fov_deg: Option<f64>,
+    /// Focal lengths and principal point, instead of a field of view.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) intrinsics: Option<IntrinsicsFile>,
+    /// `pinhole`, {opencv: {k1: …}}, {fisheye: {k1: …}} or `equirectangular`. Absent: pinhole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) lens: Option<LensFile>,
     /// Factor on linear values before sRGB encoding, or where it comes from: `auto`, {percentile: …, target: …} or
     /// {iso: …, shutter_s: …, f_number: …}.
     pub(crate) exposure: ExposureFile,
@@ -55,7 +66,14 @@ pub(crate) struct SensorFile {
 
 impl Default for SensorFile {
     fn default() -> Self {
-        Self { width_px: 320, height_px: 180, horizontal_fov_deg: 60.0, exposure: ExposureFile::Factor(1.0) }
+        Self {
+            width_px: 320,
+            height_px: 180,
+            horizontal_fov_deg: None,
+            intrinsics: None,
+            lens: None,
+            exposure: ExposureFile::Factor(1.0),
+        }
     }
 }
 

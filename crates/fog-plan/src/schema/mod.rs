@@ -7,6 +7,7 @@ mod droplets;
 mod exposure;
 mod fog;
 mod labels;
+mod lens;
 mod light;
 mod or_none;
 mod patchiness;
@@ -22,6 +23,7 @@ pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaF
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
 pub(crate) use labels::{ClassesFile, LabelsFile, NameFile, NamesFile};
+pub(crate) use lens::{IntrinsicsFile, LensFile};
 pub(crate) use light::{
     EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset, SunFile,
 };

@@ -4,6 +4,7 @@ mod droplets;
 mod exposure;
 mod fog;
 mod labels;
+mod lens;
 mod light_groups;
 mod lighting;
 mod patchiness;
@@ -13,6 +14,7 @@ mod view;
 use serde::Serialize;
 
 pub(crate) use fog::{DEFAULT_ALBEDO, DEFAULT_SCALE};
+pub(crate) use lens::DEFAULT_FOV_DEG;
 pub(crate) use view::DEFAULT_MAX_SAMPLES;
 
 use crate::{

@@ -1,6 +1,6 @@
 //! Checks of `scene`, `camera`, `sensor`, `render` and `outputs`.
 
-use super::Check;
+use super::{Check, lens::Geometry};
 use crate::{
     frame::{CameraSpec, Output, RenderSpec, SceneSpec, SensorSpec, StopSpec},
     ranges,
@@ -49,12 +49,16 @@ impl Check<'_> {
     pub(super) fn sensor(&mut self, sensor: &SensorFile) -> Option<SensorSpec> {
         let width = self.whole("sensor.width_px", sensor.width_px, ranges::IMAGE_PX);
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
-        let fov = self.range("sensor.horizontal_fov_deg", sensor.horizontal_fov_deg, ranges::FOV_DEG);
+        let geometry = self.geometry(sensor, [width, height]);
         let exposure = self.exposure(&sensor.exposure);
+        let Geometry { horizontal_fov_deg, intrinsics, lens, projection } = geometry?;
         Some(SensorSpec {
             width_px: width?,
             height_px: height?,
-            horizontal_fov_deg: fov?,
+            horizontal_fov_deg,
+            intrinsics,
+            lens,
+            projection,
             exposure: exposure?,
         })
     }

@@ -1,5 +1,6 @@
 //! Every kind of mistake, with the exact message.
 
+mod cameras;
 mod includes;
 mod lights;
 mod sensor;
@@ -66,7 +67,7 @@ fn wrong_types() {
     assert_eq!(
         errors("fog: none\nsensor: wide\n"),
         [
-            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, exposure, \
+            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, exposure, \
           found text \"wide\""
         ]
     );

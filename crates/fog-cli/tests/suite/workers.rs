@@ -1,0 +1,193 @@
+//! Several processes on one sweep, parts of a sweep, and what becomes of a data set that is there already.
+
+use crate::common::{assert_same, cache, command, folder, ids, json, names, run, sweep, write};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+const AXES: &str = "sweep: {axes: {lighting: [day, night], fog.height_m: [60, 100, 120], camera.altitude_m: [2, 30]}}\n\
+                    fog: {model: advection, height_m: 100}\n";
+
+/// Arguments of a sweep with further ones.
+fn arguments<'a>(out: &'a str, cache: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["sweep", "c.yaml", "--out", out, "--cache-dir", cache], more].concat()
+}
+
+fn done(dir: &Path) -> usize {
+    if dir.exists() { names(dir).iter().filter(|name| name.ends_with(".done")).count() } else { 0 }
+}
+
+#[test]
+fn parts_and_selections_add_up() {
+    let dir = folder(AXES);
+    let cache = cache();
+    let go = |out: &str, more: &[&str]| run(&arguments(out, &cache, more), dir.path());
+    sweep(dir.path(), "whole").ok();
+    // Parts into one folder, with another number of them on the way.
+    for part in ["0/3", "3/4", "1/3", "2/3"] {
+        go("parts", &["--shard", part]).ok();
+    }
+    assert_same(&dir.path().join("whole"), &dir.path().join("parts"));
+    // By value, by name, by process.
+    go("picked", &["--where", "lighting=night, fog.height_m>60"]).ok();
+    assert_eq!(done(&dir.path().join("picked")), 4);
+    let frames = ids(dir.path());
+    go("picked", &["--only", &frames[0], "--only", "1"]).ok();
+    assert_eq!(done(&dir.path().join("picked")), 6);
+    go("picked", &["--workers", "3", "--threads", "1"]).ok();
+    assert_same(&dir.path().join("whole"), &dir.path().join("picked"));
+
+    let refused = go("picked", &["--where", "fog.height_m>999"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("none of the 12 frames has fog.height_m>999"), "{}", refused.stderr);
+    let refused = go("picked", &["--shard", "4/4"]);
+    assert!(refused.stderr.contains("parts count from 0"), "{}", refused.stderr);
+}
+
+#[test]
+fn data_sets_are_extended_and_replaced() {
+    let dir = folder(AXES);
+    let cache = cache();
+    let go = |more: &[&str]| run(&arguments("out", &cache, more), dir.path());
+    go(&["--where", "camera.altitude_m=2"]).ok();
+    let old = ids(dir.path());
+    let marker = |id: &str| fs::read(dir.path().join(format!("out/{id}.done"))).unwrap();
+    let before = marker(&old[0]);
+
+    let text = fs::read_to_string(dir.path().join("c.yaml")).unwrap();
+    let longer = text.replace("[60, 100, 120]", "[60, 80, 100, 120]");
+    write(dir.path(), "c.yaml", &longer);
+    let refused = go(&[]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("another configuration"), "{}", refused.stderr);
+    let said = go(&["--mode", "extend"]).ok().stdout;
+    assert!(said.contains("6 frames are done already, 10 to go"), "{said}");
+    assert_eq!((done(&dir.path().join("out")), marker(&old[0])), (16, before));
+    run(&["verify", "out"], dir.path()).ok();
+    go(&[]).ok();
+
+    // A frame less is no extension.
+    write(dir.path(), "c.yaml", text.replace("[60, 100, 120]", "[60]"));
+    let refused = go(&["--mode", "extend"]);
+    assert!(refused.stderr.contains("is not in this plan"), "{}", refused.stderr);
+    write(dir.path(), "out/mine.txt", "not Fogbank's");
+    go(&["--mode", "overwrite"]).ok();
+    assert_eq!(done(&dir.path().join("out")), 4);
+    assert!(dir.path().join("out/mine.txt").exists());
+    fs::remove_file(dir.path().join("out/mine.txt")).unwrap();
+    sweep(dir.path(), "fresh").ok();
+    assert_same(&dir.path().join("out"), &dir.path().join("fresh"));
+    // The same once more: rendered again.
+    let said = go(&["--mode", "overwrite", "--only", "0"]).ok().stdout;
+    assert!(said.contains("1/1"), "{said}");
+    assert_same(&dir.path().join("out"), &dir.path().join("fresh"));
+}
+
+#[test]
+fn events_are_lines_of_json() {
+    let dir = folder(AXES);
+    let args = arguments("out", "cache", &["--workers", "2", "--log", "json", "--only", "0", "--only", "7"]);
+    let said = run(&args, dir.path()).ok().stdout;
+    let lines: Vec<_> = said.lines().map(json).collect();
+    let events: BTreeSet<&str> = lines.iter().filter_map(|line| line["event"].as_str()).collect();
+    let expected =
+        ["finished", "frame_done", "frame_started", "progress", "ready", "scene", "table", "warning"];
+    assert_eq!(events.into_iter().collect::<Vec<_>>(), expected);
+    let last = &lines[lines.len() - 1];
+    assert_eq!((&last["done"], &last["missing"]), (&2.into(), &10.into()));
+    assert!(lines.iter().all(|line| line["unix_time_s"].as_f64() > Some(1.7e9)));
+}
+
+#[cfg(unix)]
+mod processes {
+    use super::*;
+    use std::process::{Child, Command};
+    use std::time::{Duration, Instant};
+
+    fn wait_for(what: &str, condition: impl Fn() -> bool) {
+        let begun = Instant::now();
+        while !condition() {
+            assert!(begun.elapsed() < Duration::from_secs(100), "{what}");
+            std::thread::sleep(Duration::from_millis(3));
+        }
+    }
+
+    /// The processes whose parent is this one.
+    fn children(parent: u32) -> Vec<u32> {
+        let list = Command::new("ps").args(["-o", "pid=", "--ppid", &parent.to_string()]).output().unwrap();
+        String::from_utf8(list.stdout).unwrap().split_whitespace().map(|pid| pid.parse().unwrap()).collect()
+    }
+
+    fn signal(signal: &str, pid: u32) {
+        Command::new("kill").args([signal, &pid.to_string()]).status().unwrap();
+    }
+
+    fn begin(dir: &Path, out: &str, more: &[&str]) -> Child {
+        let cache = cache();
+        let long = ["--set", "render.samples=120", "--workers", "2", "--threads", "1"];
+        command(&[&arguments(out, &cache, &long), more].concat(), dir).spawn().expect("the program starts")
+    }
+
+    #[test]
+    fn workers_are_replaced_and_stopped() {
+        let dir = folder(AXES);
+        let out = dir.path().join("out");
+        run(&arguments("whole", &cache(), &["--set", "render.samples=120"]), dir.path()).ok();
+
+        // Stopped on request: what is done is kept, and no worker goes on.
+        let parent = begin(dir.path(), "out", &[]);
+        wait_for("a frame", || done(&out) >= 1);
+        let workers = children(parent.id());
+        signal("-INT", parent.id());
+        let said = parent.wait_with_output().unwrap();
+        assert_eq!(said.status.code(), Some(130));
+        assert!(String::from_utf8_lossy(&said.stderr).contains("stopped on request"));
+        assert!(workers.iter().all(|pid| !Path::new(&format!("/proc/{pid}")).exists()));
+        assert!(names(&out).iter().all(|name| !name.contains(".tmp")) && out.join("index.csv").exists());
+
+        // The parent killed: the workers go with it.
+        let mut parent = begin(dir.path(), "out", &[]);
+        wait_for("workers", || children(parent.id()).len() == 2);
+        let workers = children(parent.id());
+        parent.kill().unwrap();
+        parent.wait().unwrap();
+        wait_for("the workers' end", || {
+            workers.iter().all(|pid| !Path::new(&format!("/proc/{pid}")).exists())
+        });
+
+        // Workers killed: others take their places.
+        let parent = begin(dir.path(), "out", &[]);
+        for _ in 0..3 {
+            wait_for("workers", || !children(parent.id()).is_empty());
+            let so_far = done(&out);
+            children(parent.id()).first().into_iter().for_each(|&pid| signal("-KILL", pid));
+            wait_for("a frame", || done(&out) > so_far || done(&out) == 12);
+        }
+        let said = parent.wait_with_output().unwrap();
+        assert_eq!(said.status.code(), Some(0), "{}", String::from_utf8_lossy(&said.stderr));
+        assert_same(&dir.path().join("whole"), &out);
+    }
+
+    #[test]
+    fn frames_that_take_too_long_fail_alone() {
+        let dir = folder(AXES);
+        let cache = cache();
+        let slow = [
+            "--set",
+            "sweep.axes.lighting=[day]",
+            "--frame-timeout",
+            "1.5",
+            "--set",
+            "sweep.axes.sensor.width_px=[8, 4000]",
+        ];
+        let go = |more: &[&str]| run(&arguments("out", &cache, &[&slow, more].concat()), dir.path());
+        let failed = go(&["--set", "render.samples=800", "--only", "0", "--only", "1"]);
+        assert_eq!(failed.code, Some(1), "{}", failed.stderr);
+        assert!(failed.stderr.contains("FAILED: not done within 1.5 s, 2 times"), "{}", failed.stderr);
+        assert_eq!(done(&dir.path().join("out")), 1);
+        // Not again unless asked to.
+        let failed = go(&["--set", "render.samples=800", "--only", "1"]);
+        assert_eq!(failed.code, Some(1));
+        assert!(failed.stderr.contains("1 frames failed before"), "{}", failed.stderr);
+    }
+}
