@@ -80,9 +80,9 @@ impl Progress for JsonLog {
                 let table = json!({ "name": name, "file": path, "built": built, "reason": reason, "seconds": seconds });
                 self.line("table", table);
             }
-            Event::Scene { path, triangles, warnings, seconds } => self.line(
+            Event::Scene { name, triangles, warnings, seconds } => self.line(
                 "scene",
-                json!({ "file": path, "triangles": triangles, "warnings": warnings, "seconds": seconds }),
+                json!({ "name": name, "triangles": triangles, "warnings": warnings, "seconds": seconds }),
             ),
             Event::Denoiser { path, version } => {
                 self.line("denoiser", json!({ "file": path, "version": version }));

@@ -8,9 +8,12 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
     labels::LabelsSpec,
-    lens::{IntrinsicsSpec, LensSpec},
+    lens::{IntrinsicsSpec, LensSpec, ShutterSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    path::PathSpec,
+    rig::RigSpec,
+    scene::SceneSpec,
     sensor::ExposureSpec,
     share::Share,
     sky::{MoonSpec, SkySpec},
@@ -39,6 +42,16 @@ pub struct FrameSpec {
     pub fog: FogSpec,
     /// Pose of the camera.
     pub camera: CameraSpec,
+    /// The rig that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rig: Option<RigSpec>,
+    /// The path that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathSpec>,
+    /// Pose of the camera when the lower edge of the image is exposed; `camera` is then that of the upper edge. Absent, and then
+    /// not written: all rows are exposed at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub readout_end: Option<CameraSpec>,
     /// Image plane.
     pub sensor: SensorSpec,
     /// Light sources.
@@ -58,13 +71,6 @@ fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) ->
         map.serialize_entry(path, value)?;
     }
     map.end()
-}
-
-/// A scene file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SceneSpec {
-    /// Path as written in the configuration (`.glb` or `.gltf`), relative to the current folder.
-    pub file: PathBuf,
 }
 
 /// The fog of a frame.
@@ -277,6 +283,9 @@ pub struct SensorSpec {
     /// What all that makes: which direction each image point shows. Not written.
     #[serde(skip)]
     pub projection: Lens,
+    /// When the rows are exposed. Absent, and then not written: all at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
 }

@@ -22,6 +22,7 @@ mod frame;
 mod identity;
 mod include;
 mod labels;
+mod layout;
 mod lens;
 mod light_groups;
 mod load;
@@ -29,10 +30,13 @@ mod merge;
 mod node;
 mod origin;
 mod patchiness;
+mod path;
 mod plan;
 mod presets;
 mod ranges;
 mod read;
+mod rig;
+mod scene;
 mod schema;
 mod sensor;
 mod set;
@@ -48,15 +52,18 @@ pub use error::{PlanError, Problem};
 pub use filter::Filter;
 pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SceneSpec, SensorSpec, StopSpec, SunSpec, Visibility,
+    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
-pub use lens::{IntrinsicsSpec, LensSpec};
+pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
+pub use path::{ApproachSpec, NextSpec, PathSpec};
 pub use plan::{AxisSummary, Plan};
+pub use rig::{PoseSpec, RigSpec};
+pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
 pub use sensor::ExposureSpec;
 pub use share::Share;

@@ -1,8 +1,11 @@
 //! Plans: order, values, identity, and the resolved configuration.
 
+#[path = "plans/cameras.rs"]
+mod cameras;
+
 use std::path::Path;
 
-use fog_plan::{Coefficient, FogModel, FrameSpec, MeanCosine, Output, Phase, Plan, Sampling, SceneSpec};
+use fog_plan::{Coefficient, FogModel, FrameSpec, MeanCosine, Output, Phase, Plan, Sampling, SceneSource};
 
 const BASE: &str = "version: 1\nname: t\nscene: none\nfog: {model: advection, height_m: 180}\n";
 
@@ -47,7 +50,8 @@ fn quickstart_has_twelve_pinned_frames() {
         (frames[0].seed, frames[0].pair_id.as_str()),
         (10_802_444_987_229_188_710, "2b781ff982eb993d")
     );
-    assert_eq!(frames[0].scene, Some(SceneSpec { file: "scenes/street.glb".into() }));
+    let street = SceneSource::File { file: "scenes/street.glb".into() };
+    assert_eq!(frames[0].scene.as_ref().map(|scene| &scene.source), Some(&street));
     assert_eq!(frames[0].outputs.len(), 8);
 }
 

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene file, and where.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A scene that cannot be loaded: the file, the place inside it, and what is wrong there.
 #[derive(Debug, thiserror::Error)]
@@ -31,6 +31,14 @@ pub enum SceneErrorKind {
     TooManyTriangles {
         /// The limit.
         limit: usize,
+    },
+    /// More nodes than [`crate::Limits::max_nodes`].
+    #[error("the scene has {found} nodes; at most {limit} are read")]
+    TooManyNodes {
+        /// The limit.
+        limit: usize,
+        /// How many there are.
+        found: usize,
     },
     /// More pixels than [`crate::Limits::max_texture_pixels`].
     #[error("the scene's textures have more than {limit} pixels together")]
@@ -114,6 +122,11 @@ impl From<SceneErrorKind> for Failure {
 }
 
 impl Failure {
+    /// The error in the file that is named so.
+    pub(crate) fn of(self, file: &Path) -> SceneError {
+        SceneError { file: file.to_owned(), place: self.place, kind: self.kind }
+    }
+
     /// Says where it happened, unless a deeper place is known.
     pub(crate) fn at(mut self, place: impl FnOnce() -> String) -> Self {
         if self.place.is_empty() {

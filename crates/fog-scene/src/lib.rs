@@ -18,7 +18,7 @@ pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
 pub use features::Features;
 pub use geometry::Geometry;
-pub use gltf_load::{Limits, LoadedScene, SceneNode, SceneObject, load};
+pub use gltf_load::{Limits, LoadedScene, SceneNode, SceneObject, load, load_bytes};
 pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef};
 pub use texture::{Encoding, Filter, Image, Texture, Wrap};
 pub use triangle::{SurfacePoint, Triangle, offset_origin};

@@ -40,7 +40,7 @@ pub(crate) fn labels(spec: &FrameSpec, scene: &Scene) -> Result<Option<Labels>, 
     }
     let labels = Labels::new(scene.loaded(), &rules(&spec.labels));
     labels.map(Some).map_err(|e| {
-        let file = spec.scene.as_ref().map(|s| format!("{}: ", s.file.display())).unwrap_or_default();
+        let file = spec.scene.as_ref().map(|s| format!("{}: ", s.source)).unwrap_or_default();
         Error::Scene(format!("{file}{e}"))
     })
 }
@@ -80,24 +80,22 @@ pub(crate) fn classes_json(frames: &[FrameSpec]) -> Option<Value> {
 
 /// Sentences about classes of a frame's scene that nobody knows, and about names that nothing has.
 pub(crate) fn complaints(spec: &FrameSpec, resources: &Resources) -> Vec<String> {
-    let Some(file) = spec.scene.as_ref().map(|s| s.file.as_path()).filter(|_| are_wanted(spec)) else {
-        return Vec::new();
-    };
-    let Ok(loaded) = resources.scene(Some(file)) else { return Vec::new() };
+    let Some(scene) = spec.scene.as_ref().filter(|_| are_wanted(spec)) else { return Vec::new() };
+    let Ok(loaded) = resources.scene(Some(scene)) else { return Vec::new() };
     let rules = rules(&spec.labels);
     let idle = Labels::idle_rules(&loaded, &rules).into_iter().map(|(class, pattern)| {
         let name = match pattern {
             ClassPattern::Node(name) => format!("node or mesh `{name}`"),
             ClassPattern::Material(name) => format!("material `{name}`"),
         };
-        format!("classes: {} has no {name} for class `{class}`", file.display())
+        format!("classes: {} has no {name} for class `{class}`", scene.source)
     });
     let mut said: Vec<String> = idle.collect();
     if let Ok(labels) = Labels::new(&loaded, &rules) {
         said.extend(labels.unknown_classes().iter().map(|class| {
             format!(
                 "{}: class `{class}` is unknown, so what has it is unlabeled; to make it a class, give it a name in `classes`",
-                file.display()
+                scene.source
             )
         }));
     }

@@ -18,10 +18,10 @@ pub enum Event<'a> {
         /// Seconds that it took.
         seconds: f64,
     },
-    /// A scene was loaded.
+    /// A scene was loaded or made.
     Scene {
-        /// Its file.
-        path: &'a Path,
+        /// Its file, or its formula and seed.
+        name: &'a str,
         /// Number of triangles.
         triangles: usize,
         /// What was passed over in it.

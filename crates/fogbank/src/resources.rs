@@ -4,6 +4,7 @@ use crate::denoise;
 use crate::droplets::Spectrum;
 use crate::error::Error;
 use crate::progress::{Event, Progress};
+use crate::scenes::Scenes;
 use crate::sources::{DropletSource, Sources};
 use crate::surroundings::Surroundings;
 use crate::table_cache::TableCache;
@@ -15,12 +16,10 @@ use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::OpticsTable;
 use fog_denoise::Denoiser;
 use fog_optics::advection::AdvectionModel;
-use fog_plan::{DropletsSpec, FogModel, FogSpec, FrameSpec, MeanCosine, Phase, Sampling};
-use fog_scene::{Limits, LoadedScene};
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use fog_plan::{DropletsSpec, FogModel, FogSpec, FrameSpec, MeanCosine, Phase, Sampling, SceneSpec};
+use fog_scene::LoadedScene;
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Fog models, tables and scenes by name. Fill it with [`Resources::prepare`] before frames are made from it.
 #[derive(Debug)]
@@ -30,8 +29,7 @@ pub struct Resources {
     sources: Sources,
     surroundings: Surroundings,
     tables: Tables,
-    scenes: HashMap<PathBuf, Result<Arc<LoadedScene>, String>>,
-    empty: Arc<LoadedScene>,
+    scenes: Scenes,
     denoiser_path: Option<PathBuf>,
     denoiser: Option<Result<Denoiser, String>>,
 }
@@ -45,8 +43,7 @@ impl Resources {
             sources: Sources::default(),
             surroundings: Surroundings::default(),
             tables: Tables::new(cache),
-            scenes: HashMap::new(),
-            empty: Arc::new(LoadedScene::default()),
+            scenes: Scenes::default(),
             denoiser_path: None,
             denoiser: None,
         }
@@ -72,20 +69,8 @@ impl Resources {
             self.denoiser = Some(denoiser);
         }
         self.surroundings.prepare(&spec.lighting, &self.observer);
-        if let Some(scene) = &spec.scene
-            && !self.scenes.contains_key(&scene.file)
-        {
-            let started = Instant::now();
-            let loaded = fog_scene::load(&scene.file, &Limits::default());
-            if let Ok(loaded) = &loaded {
-                progress.event(Event::Scene {
-                    path: &scene.file,
-                    triangles: loaded.geometry.triangles().len(),
-                    warnings: &loaded.warnings,
-                    seconds: started.elapsed().as_secs_f64(),
-                });
-            }
-            self.scenes.insert(scene.file.clone(), loaded.map(Arc::new).map_err(|e| e.to_string()));
+        if let Some(scene) = &spec.scene {
+            self.scenes.prepare(scene, progress);
         }
     }
 
@@ -104,19 +89,17 @@ impl Resources {
         }
     }
 
-    /// The scene in `file`, or empty space.
+    /// A scene, or empty space.
     ///
     /// # Errors
-    /// Why it could not be loaded.
-    pub fn scene(&self, file: Option<&Path>) -> Result<Arc<LoadedScene>, Error> {
-        match file {
-            None => Ok(self.empty.clone()),
-            Some(file) => match self.scenes.get(file) {
-                Some(Ok(scene)) => Ok(scene.clone()),
-                Some(Err(reason)) => Err(Error::Scene(reason.clone())),
-                None => Err(Error::Scene(format!("{} was not prepared", file.display()))),
-            },
-        }
+    /// Why it could not be had.
+    pub fn scene(&self, spec: Option<&SceneSpec>) -> Result<Arc<LoadedScene>, Error> {
+        self.scenes.get(spec)
+    }
+
+    /// BLAKE3 of a scene by formula, in hexadecimal.
+    pub(crate) fn scene_hash(&self, spec: &SceneSpec) -> Option<&str> {
+        self.scenes.hash(spec)
     }
 
     /// The denoiser, if the frame asks for it.

@@ -27,6 +27,8 @@ pub struct SweepOptions {
     pub opening: Opening,
     /// Whether frames whose failure is on record are tried again.
     pub retry_failed: bool,
+    /// Whether the files of frames that are done are hashed, so that damaged frames are rendered again.
+    pub recheck: bool,
     /// Processes to work with; none: the current rayon pool of this one.
     pub workers: Option<Workers>,
 }
@@ -98,7 +100,13 @@ fn prepare(
     }
     let (mut done, mut failed) = (0, 0);
     for &i in &selected {
-        let state = data_set.state(&frames[i].id);
+        let id = &frames[i].id;
+        let mut state = data_set.state(id);
+        if options.recheck && state == FrameState::Done && !data_set.is_intact(id) {
+            progress.event(Event::Warning(format!("frame {id} is damaged and will be rendered again")));
+            data_set.forget(id)?;
+            state = FrameState::Missing;
+        }
         wanted[i] = state == FrameState::Missing || state == FrameState::Failed && options.retry_failed;
         done += usize::from(state == FrameState::Done);
         failed += usize::from(state == FrameState::Failed && !options.retry_failed);
@@ -179,13 +187,13 @@ fn warn_of_unknown_lights<'f>(
 ) {
     let mut said = BTreeSet::new();
     for frame in frames {
-        let Some(file) = frame.scene.as_ref().map(|s| s.file.as_path()) else { continue };
-        let Ok(loaded) = resources.scene(Some(file)) else { continue };
+        let Some(scene) = &frame.scene else { continue };
+        let Ok(loaded) = resources.scene(Some(scene)) else { continue };
         for group in &frame.lighting.groups {
             for lights in group.lights.iter().filter(|lights| !pattern(lights).is_known(&loaded)) {
                 let text = format!(
                     "lighting.groups: {} has nothing like {} of group `{}`",
-                    file.display(),
+                    scene.source,
                     json!(lights),
                     group.name
                 );
@@ -205,7 +213,7 @@ fn warn_of_unknown_classes<'f>(
 ) {
     let mut seen = BTreeSet::new();
     for frame in frames.filter(|frame| labels::are_wanted(frame)) {
-        if seen.insert(frame.scene.as_ref().map(|scene| &scene.file)) {
+        if seen.insert(frame.scene.as_ref().map(|scene| scene.source.to_string())) {
             for text in labels::complaints(frame, resources) {
                 progress.event(Event::Warning(text));
             }

@@ -28,13 +28,12 @@ fn world(command: &SceneCommand) -> (&'static str, World, &SceneFileArgs) {
     match command {
         SceneCommand::Street { file } => ("street", World::Street, file),
         SceneCommand::Urban { file, length_m, style: whose, traffic, people, limit } => {
-            let usual = if style(*whose) == Style::Vienna { 30 } else { 25 };
             let options = Urban {
                 length_m: *length_m,
                 style: style(*whose),
                 traffic: *traffic,
                 people: *people,
-                limit: limit.unwrap_or(usual),
+                limit: limit.unwrap_or(style(*whose).town_limit()),
             };
             ("urban", World::Urban(options), file)
         }

@@ -1,6 +1,6 @@
 //! `scene`: options reach the generators, mistakes are explained.
 
-use super::common::run;
+use super::common::{config, ids, read_json, run, sweep, write};
 use std::fs;
 
 #[test]
@@ -50,4 +50,34 @@ fn mistakes_are_explained() {
         let failed = run(&[&["scene"], args.as_slice()].concat(), dir.path());
         assert_eq!((failed.code, failed.stderr.trim()), (Some(2), format!("fogbank: {message}").as_str()));
     }
+}
+
+#[test]
+fn a_configuration_makes_its_scene() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let text = config(
+        "scene: {generate: targets, boards_m: [5]}\nfog: none\nlighting: day\ncamera: {altitude_m: 2}\noutputs: [image, hdr]\n",
+    );
+    write(dir.path(), "c.yaml", &text);
+    sweep(dir.path(), "out").ok();
+    let record = read_json(&dir.path().join(format!("out/{}.json", ids(dir.path())[0])));
+    assert_eq!(record["scene"]["generate"], "targets");
+    // It is the file that `scene` writes.
+    run(&["scene", "targets", "--boards-m", "5", "--out", "t.glb"], dir.path()).ok();
+    let bytes = std::fs::read(dir.path().join("t.glb")).expect("read");
+    assert_eq!(record["scene"]["blake3"], blake3::hash(&bytes).to_hex().as_str());
+
+    let limited = |limits: &str| {
+        let scene = format!("scene: {{generate: targets, limits: {limits}}}");
+        write(dir.path(), "c.yaml", text.replace("scene: {generate: targets, boards_m: [5]}", &scene));
+        let run = sweep(dir.path(), "limited");
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        run.stderr
+    };
+    assert!(
+        limited("{triangles: 10}").contains("POSITION has 102 elements; the limit on triangles allows 32")
+    );
+    assert!(limited("{nodes: 3}").contains("at most 3 are read (scene.limits.nodes)"));
+    assert!(limited("{texture_px: 9}").contains("more than 9 pixels together (scene.limits.texture_px)"));
+    assert!(limited("{file_bytes: 9}").contains("larger than 9 bytes together (scene.limits.file_bytes)"));
 }

@@ -11,9 +11,13 @@ mod lens;
 mod light;
 mod or_none;
 mod patchiness;
+mod path;
 mod phase;
+mod scene;
 mod sky;
 mod sweep;
+
+use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,13 +33,16 @@ pub(crate) use light::{
 };
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
+pub(crate) use path::{
+    DispersionFile, DriveFile, EachFile, GlideSlopeFile, LardFile, LookFile, PathFile, PathPoseFile,
+    RigCameraFile, ShutterFile,
+};
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
 };
 pub(crate) use sweep::{AxisRange, SweepFile, SweepMode};
-
-use or_none::Example;
 
 /// A Fogbank configuration: one document that describes a frame, and optionally axes that override parts of it, frame
 /// by frame.
@@ -59,8 +66,14 @@ pub(crate) struct ConfigFile {
     pub(crate) scene: Option<OrNone<SceneFile>>,
     /// The fog, or `none`.
     pub(crate) fog: Option<OrNone<FogFile>>,
-    /// Where the camera stands and looks.
+    /// Where the camera stands and looks; with `cameras`, the rig. Absent with `path`.
     pub(crate) camera: CameraFile,
+    /// Poses over time, instead of `camera`: each makes a frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<PathFile>,
+    /// A rig's cameras by name: each makes a frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cameras: Option<BTreeMap<String, RigCameraFile>>,
     /// The image plane.
     pub(crate) sensor: SensorFile,
     /// A preset or a map of light sources.
@@ -109,19 +122,6 @@ impl Default for Outputs {
     fn default() -> Self {
         Self(OutputFile::DEFAULT.to_vec())
     }
-}
-
-/// A scene file.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
-#[serde(default, deny_unknown_fields)]
-#[schemars(rename = "Scene")]
-pub(crate) struct SceneFile {
-    /// Path of a glTF scene (`.glb` or `.gltf`), relative to the current folder.
-    pub(crate) file: Option<String>,
-}
-
-impl Example for SceneFile {
-    const EXAMPLE: &'static str = "{file: scenes/street.glb}";
 }
 
 /// The JSON Schema (draft 2020-12) of a configuration file, for editors.

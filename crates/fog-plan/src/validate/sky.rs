@@ -106,10 +106,7 @@ impl Check<'_> {
         for (key, given, owners) in keys {
             if given && !owners.contains(&model) {
                 let names: Vec<&str> = owners.iter().map(|owner| owner.name()).collect();
-                let models = if names.len() == 1 { "model" } else { "models" };
-                let message =
-                    format!("`{key}` belongs to {models} {}, not {}", names.join(", "), model.name());
-                self.problem(&format!("lighting.sky.{key}"), message);
+                self.belongs("lighting.sky", key, ("model", &names), model.name());
             }
         }
     }

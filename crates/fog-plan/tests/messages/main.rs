@@ -3,6 +3,7 @@
 mod cameras;
 mod includes;
 mod lights;
+mod scenes;
 mod sensor;
 
 /// The first five lines; tests add the rest, from line 6.
@@ -35,8 +36,8 @@ fn unknown_keys() {
     assert_eq!(
         errors("fog: none\nweather: bad\n"),
         [
-            "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, sensor, \
-             lighting, render, classes, labels, outputs, sweep"
+            "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, path, \
+             cameras, sensor, lighting, render, classes, labels, outputs, sweep"
         ]
     );
 }
@@ -67,7 +68,7 @@ fn wrong_types() {
     assert_eq!(
         errors("fog: none\nsensor: wide\n"),
         [
-            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, exposure, \
+            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, shutter, exposure, \
           found text \"wide\""
         ]
     );
@@ -222,7 +223,7 @@ fn missing_keys() {
         [
             "configs/x.yaml:1:1: version: missing; write `version: 1`",
             "configs/x.yaml:1:1: name: missing; give the data set a name, such as `name: quickstart`",
-            "configs/x.yaml:1:1: scene: missing; give {file: …} or `none`",
+            "configs/x.yaml:1:1: scene: missing; give {file: …}, {generate: …} or `none`",
             "configs/x.yaml:1:1: fog: missing; give `none` or a map such as {model: advection, height_m: 180}",
         ]
     );
@@ -451,7 +452,7 @@ fn wrong_sweeps() {
         errors("fog: none\nsweep:\n  axes: {seed: [1, 2], camera.altitude_m: {from: 1, step: 2}}\n"),
         [
             "configs/x.yaml:8:10: sweep.axes.seed: an axis cannot change `seed`; expected one of scene, fog, camera, \
-             sensor, lighting, render, outputs",
+             path, cameras, sensor, lighting, render, outputs",
             "configs/x.yaml:8:43: sweep.axes.camera.altitude_m.to: missing; this key is required",
         ]
     );

@@ -6,21 +6,39 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The scene file and its folder, with the bytes that may still be read.
+/// The scene's folder, with the bytes that may still be read.
 pub(super) struct Files {
-    scene: PathBuf,
+    /// `None`: the scene is in memory.
+    folder: Option<PathBuf>,
     limit: u64,
     left: u64,
 }
 
 impl Files {
-    pub(super) fn new(scene: &Path, limit: u64) -> Self {
-        Self { scene: scene.to_owned(), limit, left: limit }
+    /// For the scene in a file.
+    pub(super) fn beside(scene: &Path, limit: u64) -> Self {
+        // An empty parent is the current folder.
+        let parent = scene.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Self { folder: Some(parent.to_owned()), limit, left: limit }
+    }
+
+    /// For a scene that has no folder.
+    pub(super) fn nowhere(limit: u64) -> Self {
+        Self { folder: None, limit, left: limit }
+    }
+
+    /// Counts bytes that are there already.
+    pub(super) fn count(&mut self, bytes: &[u8]) -> Result<(), SceneErrorKind> {
+        match self.left.checked_sub(bytes.len() as u64) {
+            Some(left) => self.left = left,
+            None => return Err(SceneErrorKind::TooLarge { limit: self.limit }),
+        }
+        Ok(())
     }
 
     /// The scene file's bytes.
-    pub(super) fn read_scene(&mut self) -> Result<Vec<u8>, SceneErrorKind> {
-        let file = File::open(&self.scene).map_err(SceneErrorKind::Read)?;
+    pub(super) fn read_scene(&mut self, scene: &Path) -> Result<Vec<u8>, SceneErrorKind> {
+        let file = File::open(scene).map_err(SceneErrorKind::Read)?;
         self.read(file)?.map_err(SceneErrorKind::Read)
     }
 
@@ -32,9 +50,10 @@ impl Files {
             Target::Relative(path) => path,
         };
         let unreadable = |e: std::io::Error| refused(format!("cannot be read: {e}"));
-        // An empty parent is the current folder.
-        let parent = self.scene.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let folder = parent.canonicalize().map_err(unreadable)?;
+        let folder = self.folder.as_deref();
+        let folder = folder
+            .ok_or_else(|| refused("is beside the scene, which is in memory and has no folder".into()))?;
+        let folder = folder.canonicalize().map_err(unreadable)?;
         let path = folder.join(relative).canonicalize().map_err(unreadable)?;
         if !path.starts_with(&folder) {
             return Err(refused("leaves the scene's folder through a link".into()));
@@ -52,10 +71,7 @@ impl Files {
         if let Err(error) = file.take(self.left.saturating_add(1)).read_to_end(&mut bytes) {
             return Ok(Err(error));
         }
-        match self.left.checked_sub(bytes.len() as u64) {
-            Some(left) => self.left = left,
-            None => return Err(SceneErrorKind::TooLarge { limit: self.limit }),
-        }
+        self.count(&bytes)?;
         Ok(Ok(bytes))
     }
 }

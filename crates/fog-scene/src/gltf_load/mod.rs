@@ -14,7 +14,7 @@ mod primitives;
 mod tangents;
 mod uri;
 
-use crate::error::{Failure, SceneError};
+use crate::error::{Failure, SceneError, SceneErrorKind};
 use crate::geometry::Geometry;
 use crate::lamp::{LightNames, PunctualLights};
 use crate::material::{Material, Opacity};
@@ -32,12 +32,19 @@ pub struct Limits {
     pub max_triangles: usize,
     /// Pixels of all images in use, together; each takes 4 bytes.
     pub max_texture_pixels: u64,
+    /// Nodes of the file, whether in use or not.
+    pub max_nodes: usize,
 }
 
 impl Default for Limits {
-    /// 2 GiB of files, 20 million triangles, 268 million pixels.
+    /// 2 GiB of files, 20 million triangles, 268 million pixels, 4 million nodes.
     fn default() -> Self {
-        Self { max_file_bytes: 1 << 31, max_triangles: 20_000_000, max_texture_pixels: 1 << 28 }
+        Self {
+            max_file_bytes: 1 << 31,
+            max_triangles: 20_000_000,
+            max_texture_pixels: 1 << 28,
+            max_nodes: 4_000_000,
+        }
     }
 }
 
@@ -140,19 +147,32 @@ impl Warnings {
 /// [`SceneError`] names the file, the node, mesh, material or image, and what is wrong; damaged, hostile or oversized
 /// files are errors, never panics.
 pub fn load(path: &Path, limits: &Limits) -> Result<LoadedScene, SceneError> {
-    load_inside(path, limits).map_err(|Failure { place, kind }| SceneError {
-        file: path.to_owned(),
-        place,
-        kind,
-    })
+    let mut files = files::Files::beside(path, limits.max_file_bytes);
+    let loaded =
+        files.read_scene(path).map_err(Failure::from).and_then(|bytes| decode(&bytes, files, limits));
+    loaded.map_err(|failure| failure.of(path))
 }
 
-fn load_inside(path: &Path, limits: &Limits) -> Result<LoadedScene, Failure> {
+/// As [`load`], from the bytes of a file; `name` is for messages. There is no folder: whatever the scene needs is inside of it.
+///
+/// # Errors
+/// As those of [`load`].
+pub fn load_bytes(name: &Path, bytes: &[u8], limits: &Limits) -> Result<LoadedScene, SceneError> {
+    let mut files = files::Files::nowhere(limits.max_file_bytes);
+    let loaded = files.count(bytes).map_err(Failure::from).and_then(|()| decode(bytes, files, limits));
+    loaded.map_err(|failure| failure.of(name))
+}
+
+/// A scene from the bytes of its file; `files` fetches those that it names.
+fn decode(bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<LoadedScene, Failure> {
     let mut warnings = Warnings::default();
-    let mut files = files::Files::new(path, limits.max_file_bytes);
-    let bytes = files.read_scene()?;
-    let container::Parts { json, blob } = container::split(&bytes)?;
+    let container::Parts { json, blob } = container::split(bytes)?;
     let document = document::parse(json, &mut warnings)?;
+    if document.nodes().len() > limits.max_nodes {
+        return Err(
+            SceneErrorKind::TooManyNodes { limit: limits.max_nodes, found: document.nodes().len() }.into()
+        );
+    }
     let buffers = accessor::Buffers::load(&document, blob, &mut files)?;
 
     let mut images = images::Images::new(&document, &buffers, &mut files, limits.max_texture_pixels);

@@ -26,6 +26,17 @@ pub enum Style {
     Mutcd,
 }
 
+impl Style {
+    /// The usual speed limit on the signs of a town: 30 km/h, or 25 mph with MUTCD.
+    #[must_use]
+    pub fn town_limit(self) -> u32 {
+        match self {
+            Self::Vienna => 30,
+            Self::Mutcd => 25,
+        }
+    }
+}
+
 /// Meaning of a sign.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Sign {
