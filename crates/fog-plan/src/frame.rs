@@ -430,6 +430,8 @@ pub enum Output {
     Semantic,
     /// Instance of the first surface.
     Instance,
+    /// Optical flow to the next frame of the path.
+    Flow,
     /// Records of the things in the picture.
     Objects,
 }

@@ -50,15 +50,15 @@ pub fn add_flow(truth: &mut SurfaceTruth, scene: &Scene, camera: &Camera, next: 
 fn motion(now: &Geometry, camera: &Camera, i: usize, next: &NextView<'_>) -> Option<Motion> {
     let ray = centre_ray(camera, i)?;
     let hit = now.intersect(ray.origin, ray.direction, f32::INFINITY);
-    let eye = next.camera.pose.position;
     let target = match &hit {
         Some(hit) => (seen_point(&ray, hit).as_dvec3() + displacement(now, next.geometry, hit)).as_vec3a(),
-        None => eye + ray.direction * FAR,
+        None => next.camera.pose.position + ray.direction * FAR,
     };
     let image = next.camera.project(target)?;
     let (x, y) = (i % camera.width as usize, i / camera.width as usize);
     let flow = [image[0] - (x as f64 + 0.5), image[1] - (y as f64 + 0.5)].map(|d| d as f32);
-    let valid = next.camera.contains(image) && is_seen(next.geometry, eye, target, hit.is_none());
+    let back = next.camera.ray(image[0], image[1]).filter(|_| next.camera.contains(image));
+    let valid = back.is_some_and(|back| is_seen(next.geometry, back.origin, target, hit.is_none()));
     Some(Motion { flow, valid })
 }
 

@@ -11,6 +11,7 @@ mod groups;
 mod layer_light;
 mod lights;
 mod lobe;
+pub mod objects;
 pub mod path;
 pub mod render;
 pub mod render_shared;

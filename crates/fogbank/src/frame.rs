@@ -6,12 +6,13 @@ use crate::exposure;
 use crate::fog::Fog;
 use crate::labels;
 use crate::lighting::{DistantLights, distant_lights, light_groups};
+use crate::objects::objects_json;
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
 use fog_dataset::DenoisedPicture;
 use fog_film::Frame;
-use fog_plan::{CameraSpec, FrameSpec, SensorSpec, StopSpec};
+use fog_plan::{CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose, Shutter};
 use fog_scene::scene::Scene;
 use fog_tracer::render::Work;
@@ -144,6 +145,7 @@ pub(crate) fn finish(
     let denoiser = resources.denoiser(spec)?;
     let denoised =
         denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
-    let objects = None;
+    let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
+    let objects = objects.map(|labels| objects_json(spec, scene, &camera, &labels, &frame, None));
     Ok(Rendered { frame, record, camera, exposure, denoised, objects })
 }

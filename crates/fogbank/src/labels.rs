@@ -1,12 +1,14 @@
 //! Classes and instances of a frame's surfaces, and the classes of a data set.
 
 use crate::error::Error;
+use crate::frame::next_camera;
 use crate::resources::Resources;
 use fog_film::SurfaceTruth;
 use fog_plan::{ClassPatternSpec, FrameSpec, LabelsSpec, Output};
 use fog_scene::camera::Camera;
 use fog_scene::labels::{ClassPattern, ClassRule, ClassTable, Labels};
 use fog_scene::scene::Scene;
+use fog_tracer::flow::{NextView, add_flow};
 use fog_tracer::surface_truth::{SurfaceLayers, surface_truth};
 use serde_json::{Value, json};
 
@@ -53,15 +55,21 @@ pub(crate) fn surfaces(
     labels: Option<&Labels>,
 ) -> SurfaceTruth {
     let wants = |output| spec.outputs.contains(&output);
+    let mut surfaces = SurfaceTruth::default();
     let layers = SurfaceLayers {
         normals: wants(Output::Normals),
         position: wants(Output::Position),
         albedo: wants(Output::Albedo),
     };
-    if layers == SurfaceLayers::default() && labels.is_none() {
-        return SurfaceTruth::default();
+    if layers != SurfaceLayers::default() || labels.is_some() {
+        surfaces = surface_truth(scene, camera, layers, labels);
     }
-    surface_truth(scene, camera, layers, labels)
+    if wants(Output::Flow) {
+        let next = next_camera(spec);
+        let geometry = &scene.loaded().geometry;
+        add_flow(&mut surfaces, scene, camera, next.as_ref().map(|camera| NextView { camera, geometry }));
+    }
+    surfaces
 }
 
 /// Content of `classes.json`, if any frame has classes. All frames of a plan have the same.

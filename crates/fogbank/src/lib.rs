@@ -29,6 +29,7 @@ mod forecast;
 mod frame;
 mod labels;
 mod lighting;
+mod objects;
 mod phase;
 mod progress;
 mod record;

@@ -175,6 +175,8 @@ pub(crate) enum OutputFile {
     Semantic,
     /// Instance of the first surface as a picture of 16-bit numbers; only where it is named.
     Instance,
+    /// Optical flow to the path's next pose, in pixels, with its validity; only where it is named.
+    Flow,
     /// Boxes, occlusion, contrast and detectability of each thing in the picture; only where it is named.
     Objects,
 }

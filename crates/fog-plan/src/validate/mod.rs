@@ -125,7 +125,7 @@ impl Check<'_> {
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
-        let outputs = self.outputs(&file.outputs);
+        let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
         let View { camera, rig, path, readout_end } = view?;
         Some(Content {
             scene: scene?,

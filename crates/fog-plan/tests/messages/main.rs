@@ -129,7 +129,7 @@ fn unknown_values() {
         errors("fog: none\noutputs: [image, image, tua]\n"),
         [
             "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
-          transmittance, tau, direct, airlight, standard_error, samples, denoised, normals, position, albedo, semantic, instance, objects; did you mean `tau`?"
+          transmittance, tau, direct, airlight, standard_error, samples, denoised, normals, position, albedo, semantic, instance, flow, objects; did you mean `tau`?"
         ]
     );
     assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);
@@ -584,6 +584,10 @@ fn classes_and_labels() {
     assert_eq!(
         errors("fog: none\nclasses: [car]\n"),
         ["configs/x.yaml:7:10: classes: expected a map, found a list of 1 item"]
+    );
+    assert_eq!(
+        errors("fog: none\noutputs: [image, flow]\n"),
+        ["configs/x.yaml:7:18: outputs.1: flow is the motion to the next pose of a path: give `path`"]
     );
     let many: String = (0..201).map(|i| format!("c{i}: a, ")).collect();
     assert_eq!(

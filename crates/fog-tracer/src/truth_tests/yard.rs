@@ -17,8 +17,8 @@ pub(super) const YARD: [Block; 6] = [
     ("car", "car", [-1.5, 0.0, -12.0], [1.8, 1.5, 4.2], 30.0),
     ("van", "truck", [0.0, 0.0, -17.0], [2.2, 2.6, 5.0], -20.0),
     ("walker", "person", [2.5, 0.0, -9.0], [0.5, 1.8, 0.4], 10.0),
-    ("sign", "traffic sign", [5.4, 0.0, -9.5], [2.0, 2.4, 0.1], 0.0),
-    ("wall", "wall", [0.0, 0.0, -40.0], [60.0, 6.0, 0.5], 0.0),
+    ("sign", "traffic sign", [6.6, 0.0, -9.5], [2.0, 2.4, 0.1], 0.0),
+    ("wall", "wall", [0.0, 0.0, -40.0], [60.0, 16.0, 0.5], 0.0),
 ];
 
 /// World from the axes of a node at a place, facing a heading.
@@ -89,5 +89,5 @@ pub(super) fn cameras(pose: Pose) -> Vec<Camera> {
         ),
         Lens::Equirectangular(Equirectangular::new(width, height, 360.0, [-90.0, 90.0])),
     ];
-    lenses.into_iter().map(|lens| Camera { pose, width, height, lens }).collect()
+    lenses.into_iter().map(|lens| Camera { pose, width, height, lens, shutter: None }).collect()
 }
