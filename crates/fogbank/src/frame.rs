@@ -143,8 +143,9 @@ pub(crate) fn finish(
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
     let denoiser = resources.denoiser(spec)?;
-    let denoised =
-        denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
+    let denoised = denoiser
+        .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
+        .transpose()?;
     let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
     let objects = objects.map(|labels| objects_json(spec, scene, &camera, &labels, &frame, None));
     Ok(Rendered { frame, record, camera, exposure, denoised, objects })

@@ -1,6 +1,7 @@
 //! Walking the node tree: every mesh instance becomes triangles in world space.
 
 use super::accessor::Buffers;
+use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneNode, SceneObject, Warnings, lights};
 use crate::attributes::CornerValues;
@@ -44,6 +45,7 @@ pub(super) fn flatten(
     document: &Document,
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
+    distributions: &mut Distributions<'_>,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -70,8 +72,8 @@ pub(super) fn flatten(
         }
         let mesh = node.mesh();
         let label = |key: &str| {
-            let of_mesh = || mesh.as_ref().and_then(|mesh| extra(mesh.extras(), key));
-            extra(node.extras(), key).or_else(of_mesh)
+            let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
+            text(node.extras(), key).or_else(of_mesh)
         };
         let (class, instance) = (label("class"), label("instance"));
         let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
@@ -91,7 +93,7 @@ pub(super) fn flatten(
         });
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
-            lights::place(&light, (&name, &here.world), out, warnings)?;
+            lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
         }
         if let Some(mesh) = mesh {
             let primitives = match meshes.get(&mesh.index()) {
@@ -138,10 +140,15 @@ fn node_name(node: &Node<'_>) -> String {
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
 
+/// A member of `extras`.
+pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<serde_json::Value> {
+    let mut extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
+    extras.get_mut(key).map(serde_json::Value::take)
+}
+
 /// A string in `extras`.
-pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
-    let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
-    extras.get(key)?.as_str().map(Rc::from)
+pub(super) fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+    extra(extras, key)?.as_str().map(Rc::from)
 }
 
 /// Points in `extras` that are three finite numbers.
