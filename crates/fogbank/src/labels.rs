@@ -1,16 +1,18 @@
 //! Classes and instances of a frame's surfaces, and the classes of a data set.
 
 use crate::error::Error;
-use crate::frame::next_camera;
+use crate::frame::{next_camera, next_scene_time_s};
 use crate::resources::Resources;
 use fog_film::SurfaceTruth;
-use fog_plan::{ClassPatternSpec, FrameSpec, LabelsSpec, Output};
+use fog_plan::{ClassPatternSpec, FrameSpec, LabelsSpec, Output, SceneSpec};
+use fog_scene::LoadedScene;
 use fog_scene::camera::Camera;
 use fog_scene::labels::{ClassPattern, ClassRule, ClassTable, Labels};
 use fog_scene::scene::Scene;
 use fog_tracer::flow::{NextView, add_flow};
 use fog_tracer::surface_truth::{SurfaceLayers, surface_truth};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Outputs that need classes and instances.
 const LABELLED: [Output; 3] = [Output::Semantic, Output::Instance, Output::Objects];
@@ -47,13 +49,23 @@ pub(crate) fn labels(spec: &FrameSpec, scene: &Scene) -> Result<Option<Labels>, 
     })
 }
 
+/// The scene as it is at the next pose of the frame's path.
+fn next_scene(spec: &FrameSpec, resources: &Resources) -> Result<Option<Arc<LoadedScene>>, Error> {
+    let (Some(scene), Some(time_s)) = (&spec.scene, next_scene_time_s(spec)) else { return Ok(None) };
+    resources.scene(Some(&SceneSpec { time_s, ..scene.clone() })).map(Some)
+}
+
 /// What the first surfaces of a frame's pixels are, as far as its outputs ask for it.
+///
+/// # Errors
+/// If the scene of the path's next pose cannot be had.
 pub(crate) fn surfaces(
     spec: &FrameSpec,
     scene: &Scene,
     camera: &Camera,
     labels: Option<&Labels>,
-) -> SurfaceTruth {
+    resources: &Resources,
+) -> Result<SurfaceTruth, Error> {
     let wants = |output| spec.outputs.contains(&output);
     let mut surfaces = SurfaceTruth::default();
     let layers = SurfaceLayers {
@@ -65,11 +77,12 @@ pub(crate) fn surfaces(
         surfaces = surface_truth(scene, camera, layers, labels);
     }
     if wants(Output::Flow) {
+        let then = next_scene(spec, resources)?;
         let next = next_camera(spec);
-        let geometry = &scene.loaded().geometry;
+        let geometry = then.as_ref().map_or(&scene.loaded().geometry, |then| &then.geometry);
         add_flow(&mut surfaces, scene, camera, next.as_ref().map(|camera| NextView { camera, geometry }));
     }
-    surfaces
+    Ok(surfaces)
 }
 
 /// Content of `classes.json`, if any frame has classes. All frames of a plan have the same.

@@ -127,8 +127,12 @@ impl Check<'_> {
         let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
         let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
         let View { camera, rig, path, readout_end } = view?;
+        let mut scene = scene?;
+        if let (Some(scene), Some(path)) = (&mut scene, &path) {
+            scene.time_s += path.time_s;
+        }
         Some(Content {
-            scene: scene?,
+            scene,
             fog: fog?,
             camera,
             rig,

@@ -4,6 +4,7 @@ use super::accessor::Buffers;
 use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneNode, SceneObject, Warnings, lights};
+use crate::animation::Animation;
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::lamp::{LightNames, PunctualLights};
@@ -27,6 +28,10 @@ pub(super) struct Flat {
     pub(super) tangents: CornerValues,
     pub(super) nodes: Vec<SceneNode>,
     pub(super) objects: Vec<SceneObject>,
+    /// glTF's index of each object's node.
+    pub(super) object_nodes: Vec<usize>,
+    /// The node above each node; none of those of the scene itself, and of those that are not in it.
+    pub(super) parents: Vec<Option<usize>>,
     pub(super) lights: PunctualLights,
     pub(super) light_names: LightNames,
 }
@@ -40,12 +45,13 @@ struct Inherited {
     instance: Option<Rc<str>>,
 }
 
-/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one.
+/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
+/// everything is where it is at the time.
 pub(super) fn flatten(
-    document: &Document,
+    (document, motion): (&Document, Option<(&Animation, f64)>),
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
-    distributions: &mut Distributions<'_>,
+    distributions: &mut Distributions,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -62,6 +68,7 @@ pub(super) fn flatten(
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
+    flat.parents = vec![None; seen.len()];
     while let Some((node, above)) = open.pop() {
         let name = node_name(&node);
         let place = || format!("node `{name}`");
@@ -77,9 +84,13 @@ pub(super) fn flatten(
         };
         let (class, instance) = (label("class"), label("instance"));
         let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
+        let local = match motion {
+            Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
+            None => local_transform(&node),
+        };
         let here = Inherited {
             node: Some(flat.nodes.len() as u32),
-            world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
+            world: above.world * local.map_err(|e| e.at(place))?,
             class: class.clone().or_else(|| above.class.clone()),
             instance: instance.clone().or_else(|| above.instance.clone()),
         };
@@ -108,6 +119,7 @@ pub(super) fn flatten(
                 }
             };
             let object = flat.objects.len() as u32;
+            flat.object_nodes.push(node.index());
             flat.objects.push(SceneObject {
                 node: flat.nodes.len() as u32 - 1,
                 name: name.clone(),
@@ -125,6 +137,9 @@ pub(super) fn flatten(
                     .map_err(|e| e.at(place))?;
             }
         }
+        for child in node.children() {
+            flat.parents[child.index()] = Some(node.index());
+        }
         let first_child = open.len();
         open.extend(node.children().map(|child| (child, here.clone())));
         open[first_child..].reverse();
@@ -135,7 +150,7 @@ pub(super) fn flatten(
     Ok(flat)
 }
 
-fn node_name(node: &Node<'_>) -> String {
+pub(super) fn node_name(node: &Node<'_>) -> String {
     let of_mesh = || node.mesh().and_then(|mesh| mesh.name().map(str::to_owned));
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
@@ -165,7 +180,7 @@ fn keypoints(extras: &gltf::json::Extras) -> Vec<(String, DVec3)> {
 }
 
 /// A node's own matrix, in f64.
-fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
+pub(super) fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
     let matrix = match node.transform() {
         Transform::Matrix { matrix } => {
             DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
