@@ -151,7 +151,7 @@ fn a_runway_has_its_keypoints() {
     let image = |name: &str| [0, 1].map(|c| points[name]["image_px"][c].as_f64().unwrap());
     let [left, right] = ["threshold_left", "threshold_right"].map(image);
     // 45 m at 601 m, with the axis in the middle.
-    let focal = 48.0 / (0.5f64 * 60.0).to_radians().sin_cos().0 * (0.5f64 * 60.0).to_radians().sin_cos().1;
+    let focal = 48.0 * 3f64.sqrt();
     assert!((left[0] + right[0] - 96.0).abs() < 1e-2 && (left[1] - right[1]).abs() < 1e-2);
     assert!((right[0] - left[0] - 45.0 * focal / 600.0).abs() < 0.05, "{left:?} {right:?} {focal}");
     for name in ["threshold_left", "threshold_right", "end_left", "end_right", "aiming_point"] {
