@@ -6,23 +6,25 @@ use crate::{SceneNode, SceneObject};
 use fog_core::Vec3;
 use glam::DMat4;
 
-/// A scene of nodes (name, parent, class, instance), the objects on some of them, and a triangle of each (object, material).
+/// Name, parent, class and instance of a node.
+type NodeRow<'a> = (&'a str, Option<u32>, Option<&'a str>, Option<&'a str>);
+
+/// A scene of nodes, the objects on some of them, and a triangle of each (object, material).
 fn scene(
-    nodes: &[(&str, Option<u32>, Option<&str>, Option<&str>)],
+    nodes: &[NodeRow<'_>],
     objects: &[u32],
     parts: &[(u32, u32)],
     materials: &[(&str, Option<&str>)],
 ) -> LoadedScene {
     let owned = |text: &Option<&str>| text.map(str::to_owned);
-    let node =
-        |(name, parent, class, instance): &(&str, Option<u32>, Option<&str>, Option<&str>)| SceneNode {
-            name: (*name).to_owned(),
-            parent: *parent,
-            class: owned(class),
-            instance: owned(instance),
-            keypoints: Vec::new(),
-            world: DMat4::IDENTITY,
-        };
+    let node = |(name, parent, class, instance): &NodeRow<'_>| SceneNode {
+        name: (*name).to_owned(),
+        parent: *parent,
+        class: owned(class),
+        instance: owned(instance),
+        keypoints: Vec::new(),
+        world: DMat4::IDENTITY,
+    };
     let nodes: Vec<SceneNode> = nodes.iter().map(node).collect();
     let object = |&node: &u32| SceneObject {
         node,
