@@ -22,6 +22,8 @@ pub struct FrameFiles<'a> {
     pub exposure: f32,
     /// The picture without its noise, where the frame's outputs ask for it.
     pub denoised: Option<&'a DenoisedPicture>,
+    /// Records of the things in the picture, where the frame's outputs ask for them.
+    pub objects: Option<&'a Value>,
     /// The pictures of the sensor, where the frame has one: its sRGB picture is then the developed one.
     pub camera: Option<&'a CameraPicture>,
     /// The same view in clear air, where the frame's outputs ask for it.

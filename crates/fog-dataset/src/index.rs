@@ -8,17 +8,20 @@ use crate::names::{INDEX, Kind};
 use crate::{FrameState, PlanFrame, Result, atomic};
 
 /// Files that have a column, with its name.
-const COLUMNS: [(Kind, &str); 7] = [
+const COLUMNS: [(Kind, &str); 10] = [
     (Kind::Image, "image_file"),
     (Kind::Hdr, "hdr_file"),
     (Kind::Truth, "gt_file"),
     (Kind::Record, "record_file"),
+    (Kind::Semantic, "semantic_file"),
+    (Kind::Instance, "instance_file"),
+    (Kind::Objects, "objects_file"),
     (Kind::Raw, "raw_file"),
     (Kind::Clear, "clear_file"),
     (Kind::ClearImage, "clear_image_file"),
 ];
 /// Columns that are there even if no frame has such files.
-const ALWAYS: usize = 4;
+const ALWAYS: usize = 7;
 
 /// Writes the index: index, id, status, pair_id, one column per axis, and the names of the files of finished frames.
 pub(crate) fn write(dir: &Path, plan: &[PlanFrame], states: &[FrameState]) -> Result<()> {
@@ -100,9 +103,10 @@ mod tests {
         ];
         assert_eq!(
             text(&plan, &[FrameState::Done, FrameState::Missing]),
-            "index,id,status,pair_id,fog,camera.altitude_m,lighting,image_file,hdr_file,gt_file,record_file\n\
-             0,a,done,p,none,2,,a.rgb.png,,a.gt.exr,a.json\n\
-             1,b,missing,p,\"{\"\"model\"\":\"\"advection\"\",\"\"height_m\"\":100}\",,\"d\"\"ay\",,,,\n"
+            "index,id,status,pair_id,fog,camera.altitude_m,lighting,image_file,hdr_file,gt_file,record_file,\
+             semantic_file,instance_file,objects_file\n\
+             0,a,done,p,none,2,,a.rgb.png,,a.gt.exr,a.json,,,\n\
+             1,b,missing,p,\"{\"\"model\"\":\"\"advection\"\",\"\"height_m\"\":100}\",,\"d\"\"ay\",,,,,,,\n"
         );
     }
 }

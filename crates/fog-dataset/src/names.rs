@@ -3,6 +3,7 @@
 use crate::{Error, OutputSet, Result};
 
 pub(crate) const HEADER: &str = "dataset.json";
+pub(crate) const CLASSES: &str = "classes.json";
 pub(crate) const CONFIG: &str = "config.resolved.yaml";
 pub(crate) const PLAN: &str = "plan.jsonl";
 pub(crate) const INDEX: &str = "index.csv";
@@ -17,6 +18,9 @@ pub(crate) enum Kind {
     Clear,
     ClearImage,
     Record,
+    Semantic,
+    Instance,
+    Objects,
     Denoised,
     DenoisedImage,
     Denoising,
@@ -27,8 +31,18 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kinds that hold the frame and are hashed, in the order in which they are written.
-    pub(crate) const HASHED: [Self; 7] =
-        [Self::Image, Self::Hdr, Self::Truth, Self::Raw, Self::Clear, Self::ClearImage, Self::Record];
+    pub(crate) const HASHED: [Self; 10] = [
+        Self::Image,
+        Self::Hdr,
+        Self::Truth,
+        Self::Record,
+        Self::Semantic,
+        Self::Instance,
+        Self::Objects,
+        Self::Raw,
+        Self::Clear,
+        Self::ClearImage,
+    ];
 
     /// The kinds that depend on more than the frame: on a library and the processor. Of two pictures and their record,
     /// which has their hashes, the record is written last.
@@ -50,6 +64,9 @@ impl Kind {
             Self::Clear => "clear.exr",
             Self::ClearImage => "clear.rgb.png",
             Self::Record => "json",
+            Self::Semantic => "semantic.png",
+            Self::Instance => "instance.png",
+            Self::Objects => "objects.json",
             Self::Denoised => "denoised.exr",
             Self::DenoisedImage => "denoised.png",
             Self::Denoising => "denoised.json",
@@ -66,6 +83,9 @@ impl Kind {
             Self::Image => outputs.image,
             Self::Hdr => outputs.wants_hdr_file(),
             Self::Truth => outputs.wants_truth_file(),
+            Self::Semantic => outputs.semantic,
+            Self::Instance => outputs.instance,
+            Self::Objects => outputs.objects,
             Self::Raw => outputs.raw,
             Self::Clear | Self::ClearImage => outputs.pair,
             _ => true,
@@ -85,10 +105,11 @@ pub(crate) fn check_id(id: &str) -> Result<()> {
     if !id.as_bytes()[0].is_ascii_alphanumeric() {
         return bad("it must begin with a letter or digit");
     }
-    if id == "dataset"
-        || [".timing", ".failed", ".denoised", ".clear"].iter().any(|taken| id.ends_with(taken))
-    {
-        return bad("`dataset` and names ending in `.timing`, `.failed`, `.denoised` or `.clear` are taken");
+    let taken_ends = [".timing", ".failed", ".denoised", ".objects", ".clear"];
+    if ["dataset", "classes"].contains(&id) || taken_ends.iter().any(|taken| id.ends_with(taken)) {
+        return bad(
+            "`dataset`, `classes` and names ending in `.timing`, `.failed`, `.denoised`, `.objects` or `.clear` are taken",
+        );
     }
     Ok(())
 }
@@ -113,6 +134,8 @@ mod tests {
             "a.timing",
             "a.failed",
             "a.denoised",
+            "a.objects",
+            "classes",
             "a.clear",
             "ä",
             "a b",

@@ -93,7 +93,7 @@ impl Check<'_> {
         Some(Some(StopSpec { noise: noise?, max_samples }))
     }
 
-    pub(super) fn outputs(&mut self, outputs: &Outputs) -> Option<Vec<Output>> {
+    pub(super) fn outputs(&mut self, outputs: &Outputs, on_path: bool) -> Option<Vec<Output>> {
         if outputs.0.is_empty() {
             self.problem("outputs", "empty; name at least one output");
             return None;
@@ -108,6 +108,12 @@ impl Check<'_> {
         let index = outputs.0.iter().position(|output| *output == OutputFile::Denoised);
         if let Some(index) = index.filter(|_| !outputs.0.contains(&OutputFile::Hdr)) {
             let message = "denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
+            self.problem(&format!("outputs.{index}"), message);
+            fine = false;
+        }
+        let index = outputs.0.iter().position(|output| *output == OutputFile::Flow);
+        if let Some(index) = index.filter(|_| !on_path) {
+            let message = "flow is the motion to the next pose of a path: give `path`";
             self.problem(&format!("outputs.{index}"), message);
             fine = false;
         }
@@ -130,6 +136,13 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
         OutputFile::Denoised => Output::Denoised,
+        OutputFile::Normals => Output::Normals,
+        OutputFile::Position => Output::Position,
+        OutputFile::Albedo => Output::Albedo,
+        OutputFile::Semantic => Output::Semantic,
+        OutputFile::Instance => Output::Instance,
+        OutputFile::Flow => Output::Flow,
+        OutputFile::Objects => Output::Objects,
         OutputFile::Raw => Output::Raw,
         OutputFile::Pair => Output::Pair,
     }
