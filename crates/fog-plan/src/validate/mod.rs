@@ -122,8 +122,12 @@ impl Check<'_> {
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let outputs = self.outputs(&file.outputs);
         let View { camera, rig, path, readout_end } = view?;
+        let mut scene = scene?;
+        if let (Some(scene), Some(path)) = (&mut scene, &path) {
+            scene.time_s += path.time_s;
+        }
         Some(Content {
-            scene: scene?,
+            scene,
             fog: fog?,
             camera,
             rig,
