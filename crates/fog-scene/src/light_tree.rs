@@ -397,7 +397,7 @@ mod tests {
                 let point = Vec3A::new(240.0 * (rng.uniform() - 0.5), 5.0, 240.0 * (rng.uniform() - 0.5));
                 let direction = warp::uniform_sphere(rng.uniform2());
                 let exit = if k % 4 == 0 { f32::INFINITY } else { 50.0 };
-                let segment = Receiver::Segment { origin: point, direction, enter: 1.0, exit };
+                let segment = Receiver::Segment { origin: point, direction, enter: 1.0, exit, angles: None };
                 for receiver in [Receiver::Point(point), segment] {
                     let all: Vec<f32> = (0..n as usize).map(|i| tree.probability(i, &receiver)).collect();
                     let sum: f32 = all.iter().sum();
