@@ -55,8 +55,8 @@ fn a_rig_flies_along_a_path() {
 
     // Beyond 75 degrees from its axis the fisheye sees nothing: black, and no truth.
     let frame = read_frame(&dir.path().join("out"), &all[1]).expect("readable");
-    let (depth, red) = (&frame.channels["depth.Z"], &frame.channels["R"]);
-    assert!(depth[0].is_nan() && red[0] == 0.0 && frame.channels["tau.Y"][0].is_nan());
+    let (depth, red) = (&frame.channels["depth.Z"].values, &frame.channels["R"].values);
+    assert!(depth[0].is_nan() && red[0] == 0.0 && frame.channels["tau.Y"].values[0].is_nan());
     assert!(depth[7 * 24 + 12].is_finite() && red[7 * 24 + 12] > 0.0);
     let index = std::fs::read_to_string(dir.path().join("out/index.csv")).unwrap();
     assert!(index.starts_with("index,id,status,pair_id,path.index,rig.camera,"), "{index}");
@@ -87,7 +87,7 @@ fn panoramas_and_the_plan() {
     let frame = read_frame(&dir.path().join("out"), id).expect("readable");
     assert_eq!(frame.channels["depth.Z"], frame.channels["distance.Z"]);
     // The camera is 2 m over the street: straight down is that far.
-    let down = frame.channels["distance.Z"][7 * 16 + 3];
+    let down = frame.channels["distance.Z"].values[7 * 16 + 3];
     assert!((2.0..2.1).contains(&down), "{down}");
     assert!(names(&dir.path().join("out")).iter().any(|name| name.ends_with(".gt.exr")));
 
