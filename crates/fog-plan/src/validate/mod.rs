@@ -4,6 +4,7 @@ mod approach;
 mod droplets;
 mod exposure;
 mod fog;
+mod labels;
 mod lens;
 mod light_groups;
 mod lighting;
@@ -27,6 +28,7 @@ use pose::View;
 use crate::{
     error::{Problem, Problems},
     frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SensorSpec},
+    labels::LabelsSpec,
     node::{Entry, Node, Value},
     path::{CsvFiles, Path, PathSpec},
     ranges::Range,
@@ -52,6 +54,8 @@ pub(crate) struct Content {
     pub(crate) sensor: SensorSpec,
     pub(crate) lighting: LightingSpec,
     pub(crate) render: RenderSpec,
+    #[serde(skip_serializing_if = "LabelsSpec::is_default")]
+    pub(crate) labels: LabelsSpec,
     pub(crate) outputs: Vec<Output>,
 }
 
@@ -120,7 +124,8 @@ impl Check<'_> {
         let render = self.render(&file.render);
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
-        let outputs = self.outputs(&file.outputs);
+        let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
+        let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
         let View { camera, rig, path, readout_end } = view?;
         let mut scene = scene?;
         if let (Some(scene), Some(path)) = (&mut scene, &path) {
@@ -136,6 +141,7 @@ impl Check<'_> {
             sensor: sensor?,
             lighting: lighting?,
             render: render?,
+            labels: labels?,
             outputs: outputs?,
         })
     }
