@@ -34,6 +34,7 @@ use fog_scene::emitters::Breadth;
 use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
+use fog_scene::phase_angles::PhaseAngles;
 use fog_scene::scene::{Scene, Surface};
 use fog_scene::sky_map::SkyLanes;
 
@@ -73,6 +74,8 @@ pub struct PathTracer<'a> {
     layer_light: Option<LayerLight>,
     /// Paths that go on from the first collision.
     pub(crate) branches: u64,
+    /// Of the fog among lamps.
+    phase_angles: Option<PhaseAngles>,
 }
 
 /// What one path saw.
@@ -171,6 +174,8 @@ impl<'a> PathTracer<'a> {
         let lights = LightMix::new(scene);
         let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
         let branches = if !surrounded && scene.emitters().has(Breadth::Broad) { BRANCHES } else { 1 };
+        let among_lamps = medium.as_ref().filter(|_| lights.lamp_probability() > 0.0);
+        let phase_angles = among_lamps.map(|m| PhaseAngles::new(&m.phase));
         Self {
             scene,
             medium,
@@ -183,6 +188,7 @@ impl<'a> PathTracer<'a> {
             roulette_depth,
             layer_light,
             branches,
+            phase_angles,
         }
     }
 
