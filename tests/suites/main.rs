@@ -22,6 +22,7 @@ mod reciprocity;
 mod replay;
 mod samplers;
 mod seen_lamps;
+mod sensor;
 mod shared;
 mod sky;
 mod street;

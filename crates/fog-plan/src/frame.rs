@@ -14,7 +14,7 @@ use crate::{
     path::PathSpec,
     rig::RigSpec,
     scene::SceneSpec,
-    sensor::ExposureSpec,
+    sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
     sky::{MoonSpec, SkySpec},
 };
@@ -264,7 +264,7 @@ pub struct CameraSpec {
 }
 
 /// Image plane and lens.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
@@ -288,6 +288,9 @@ pub struct SensorSpec {
     pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
+    /// The sensor that `raw` and `image` are taken with. Absent, and then not written: the picture is ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<SensorModelSpec>,
 }
 
 /// Light sources of a frame.
@@ -456,4 +459,8 @@ pub enum Output {
     Flow,
     /// Records of the things in the picture.
     Objects,
+    /// The sensor's raw picture.
+    Raw,
+    /// The same view in clear air.
+    Pair,
 }

@@ -19,6 +19,7 @@
 
 mod camera_record;
 mod changed_files;
+mod clear_air;
 mod compare;
 mod denoise;
 mod droplets;
@@ -38,6 +39,7 @@ mod replay;
 mod resources;
 mod scenes;
 mod selection;
+mod sensor;
 mod shared;
 mod skies;
 mod sources;

@@ -12,6 +12,7 @@ mod patchiness;
 mod path;
 mod pose;
 mod scene;
+mod sensor_model;
 mod sky;
 mod view;
 
@@ -126,6 +127,7 @@ impl Check<'_> {
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
         let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
+        self.sensor_rules(file, sensor.as_ref());
         let View { camera, rig, path, readout_end } = view?;
         let mut scene = scene?;
         if let (Some(scene), Some(path)) = (&mut scene, &path) {
