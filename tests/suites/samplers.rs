@@ -334,8 +334,8 @@ fn choices_of_a_light_tree() {
     let receivers = [
         Receiver::Point(Vec3A::new(3.0, 2.0, -5.0)),
         Receiver::Point(Vec3A::new(0.0, 200.0, 0.0)),
-        Receiver::Segment { origin, direction, enter: 2.0, exit: 90.0 },
-        Receiver::Segment { origin, direction, enter: 0.0, exit: f32::INFINITY },
+        Receiver::Segment { origin, direction, enter: 2.0, exit: 90.0, angles: None },
+        Receiver::Segment { origin, direction, enter: 0.0, exit: f32::INFINITY, angles: None },
     ];
     for (k, receiver) in receivers.iter().enumerate() {
         let all = 0..tree.lights().len();

@@ -235,11 +235,11 @@ impl<'a> PathTracer<'a> {
                     out.radiance += glow;
                 }
             }
-            if let Event::Collision { t, tau } = event {
-                if path.depth == 0 {
-                    out.airlight = true;
-                    fork = self.fork(&mut path, t, tau);
-                }
+            if let Event::Collision { t, tau } = event
+                && path.depth == 0
+            {
+                out.airlight = true;
+                fork = self.fork(&mut path, t, tau);
             }
             // Scatter, or end here: then the next branch scatters where the first flight ended.
             loop {
