@@ -1,6 +1,8 @@
 //! The slow suites, one program: statistical tests of every sampler, and renderings against independent references.
 
 mod analog;
+mod approximation;
+mod cameras;
 mod droplets;
 mod emitters;
 mod furnace;
@@ -20,6 +22,7 @@ mod reciprocity;
 mod replay;
 mod samplers;
 mod seen_lamps;
+mod sensor;
 mod shared;
 mod sky;
 mod street;

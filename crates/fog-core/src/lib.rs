@@ -24,9 +24,10 @@ pub mod phase_grid;
 mod phase_lookup;
 pub mod profile;
 pub mod random;
+pub mod sensor_response;
 mod separable;
 mod shared_words;
 pub mod spectrum;
 pub mod warp;
 
-pub use glam::{Mat4, Quat, Vec2, Vec3, Vec3A};
+pub use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec2, Vec3, Vec3A};

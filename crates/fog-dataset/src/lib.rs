@@ -7,10 +7,15 @@
 //! |---|---|
 //! | `dataset.json` | format, digests, hashes of the next two, and what the caller tells; claims the folder |
 //! | `config.resolved.yaml` | the configuration with every default written out |
+//! | `classes.json` | the classes by number, where frames have any |
 //! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
-//! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
+//! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`); of a frame with a sensor developed from its raw picture |
+//! | `<id>.raw.png` | 16-bit grey: the numbers of the sensor's pixels (`raw`) |
+//! | `<id>.clear.exr`, `.clear.rgb.png` | the same view in clear air at the same exposure (`pair`): `R`, `G`, `B`, and its sRGB picture |
 //! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
-//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
+//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y`; `N.X/Y/Z` (`normals`), `P.X/Y/Z` (`position`), `albedo.R/G/B`, `flow.X/Y` and `flow_valid.Y` where asked for |
+//! | `<id>.semantic.png`, `<id>.instance.png` | class (8 bits) and instance (16 bits) of each pixel |
+//! | `<id>.objects.json` | records of the things in the picture |
 //! | `<id>.json` | the frame's record |
 //! | `<id>.denoised.exr`, `.denoised.png` | a guess at the radiance without its noise (`denoised`), and its sRGB picture |
 //! | `<id>.denoised.json` | what guessed it, and the hashes of these two |
@@ -50,7 +55,7 @@ pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
 pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
-pub use frame_files::{DenoisedPicture, FrameFiles};
+pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles};
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use merge::{Merged, merge};

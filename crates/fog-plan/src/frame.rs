@@ -7,13 +7,14 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
+    labels::LabelsSpec,
     lens::{IntrinsicsSpec, LensSpec, ShutterSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
     path::PathSpec,
     rig::RigSpec,
     scene::SceneSpec,
-    sensor::ExposureSpec,
+    sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
     sky::{MoonSpec, SkySpec},
 };
@@ -57,6 +58,9 @@ pub struct FrameSpec {
     pub lighting: LightingSpec,
     /// Sampling.
     pub render: RenderSpec,
+    /// What surfaces are called, and which things count as detectable. Not written where it is the default.
+    #[serde(skip_serializing_if = "LabelsSpec::is_default")]
+    pub labels: LabelsSpec,
     /// What is written, in the order of [`Output`], each once.
     pub outputs: Vec<Output>,
 }
@@ -260,7 +264,7 @@ pub struct CameraSpec {
 }
 
 /// Image plane and lens.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
@@ -284,6 +288,9 @@ pub struct SensorSpec {
     pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
+    /// The sensor that `raw` and `image` are taken with. Absent, and then not written: the picture is ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<SensorModelSpec>,
 }
 
 /// Light sources of a frame.
@@ -371,6 +378,12 @@ pub struct RenderSpec {
     /// Sampling goes on until the noise is low. Absent, and then not written: no more than `samples`.
     #[serde(flatten)]
     pub stop: Option<StopSpec>,
+    /// Which pixels get more samples than others. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allocate: Option<Allocate>,
+    /// What is not exact. Absent, and then not written: nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approximation: Option<Approximation>,
     /// Longest path in edges from camera to light (1: only light that comes straight from its source); absent: no limit.
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
@@ -378,6 +391,22 @@ pub struct RenderSpec {
     /// Which other frames of the plan the paths are shared with. Absent, and then not written: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<Share>,
+}
+
+/// What a rendering does that is not exact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Approximation {
+    /// Paths that have scattered often see fog of fewer scatterings that turn more, in which light spreads alike.
+    Similarity,
+}
+
+/// How the samples of a frame, `samples` for each of its pixels, are shared out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Allocate {
+    /// So that the mean relative squared error over the pixels is least.
+    RelativeError,
 }
 
 /// When enough of a pixel has been sampled.
@@ -416,4 +445,22 @@ pub enum Output {
     Samples,
     /// An estimate of `Hdr`, which is then there too, without its noise.
     Denoised,
+    /// Unit normals in the world.
+    Normals,
+    /// Positions in the world, in metres.
+    Position,
+    /// Base colour of the first surface.
+    Albedo,
+    /// Class of the first surface.
+    Semantic,
+    /// Instance of the first surface.
+    Instance,
+    /// Optical flow to the next frame of the path.
+    Flow,
+    /// Records of the things in the picture.
+    Objects,
+    /// The sensor's raw picture.
+    Raw,
+    /// The same view in clear air.
+    Pair,
 }

@@ -21,6 +21,7 @@ mod fog_sources;
 mod frame;
 mod identity;
 mod include;
+mod labels;
 mod layout;
 mod lens;
 mod light_groups;
@@ -50,9 +51,10 @@ pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
 pub use filter::Filter;
 pub use frame::{
-    CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
+    Allocate, Approximation, CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec,
+    LightingSpec, MeanCosine, Output, Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
 pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
@@ -63,6 +65,6 @@ pub use plan::{AxisSummary, Plan};
 pub use rig::{PoseSpec, RigSpec};
 pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
-pub use sensor::ExposureSpec;
+pub use sensor::{BayerSpec, ExposureSpec, PsfSpec, ResponseSpec, SensorModelSpec, VignettingSpec};
 pub use share::Share;
 pub use sky::{MoonSpec, SkyBrightness, SkySpec};

@@ -372,6 +372,26 @@ fn a_noise_target_has_a_limit_and_without_one_nothing_is_new() {
 }
 
 #[test]
+fn budgets_and_approximations_are_part_of_a_frame_only_where_asked_for() {
+    let head = "version: 1\nname: t\nscene: none\nfog: none\nlighting: day\ncamera: {altitude_m: 2}\n";
+    let frame = |render: &str| {
+        let plan = fog_plan::parse(&format!("{head}{render}"), "x.yaml", &[]).expect("valid");
+        plan.frame(0).expect("frame").clone()
+    };
+    let plain = frame("");
+    assert_eq!(plain.render.allocate, None);
+    assert_eq!(plain.digest, frame("render: {allocate: even}\n").digest);
+    let by_error = frame("render: {allocate: relative_error}\n");
+    assert_eq!(by_error.render.allocate, Some(fog_plan::Allocate::RelativeError));
+    assert_eq!(serde_json::to_value(by_error.render).expect("json")["allocate"], "relative_error");
+    assert_ne!(plain.digest, by_error.digest);
+    let similar = frame("render: {approximation: similarity}\n");
+    assert_eq!(plain.render.approximation, None);
+    assert_eq!(serde_json::to_value(similar.render).expect("json")["approximation"], "similarity");
+    assert_ne!(plain.digest, similar.digest);
+}
+
+#[test]
 fn light_groups_are_part_of_a_frame_only_where_there_are_some() {
     let json = |lighting: &str| {
         let plan = plan(&format!("lighting: {lighting}\n"));
@@ -402,4 +422,27 @@ fn intensities_of_groups_are_axes() {
     );
     let intensities: Vec<_> = frames(&plan).iter().map(|f| f.lighting.groups[0].intensity).collect();
     assert_eq!(intensities, [0.5, 1.0]);
+}
+
+#[test]
+fn labels_are_written_only_where_something_is_said() {
+    let frame = |lines: &str| {
+        let text = format!("version: 1\nname: t\nscene: none\nfog: none\n{lines}");
+        let plan = fog_plan::parse(&text, "t.yaml", &[]).unwrap();
+        (plan.config_digest(), plan.frames().next().unwrap().unwrap())
+    };
+    let (plain_config, plain) = frame("");
+    assert!(serde_json::to_value(&plain).unwrap().get("labels").is_none());
+    let (_, same) = frame("labels: {min_pixels: 10}\n");
+    assert_eq!(plain.id, same.id);
+    let (one_config, one) = frame("classes: {car: \"car_*\", road: [\"road*\", {material: \"asphalt*\"}]}\n");
+    let labels = serde_json::to_value(&one).unwrap()["labels"].clone();
+    let classes = serde_json::json!([{"class": "car", "patterns": ["car_*"]},
+        {"class": "road", "patterns": ["road*", "material:asphalt*"]}]);
+    assert_eq!(labels, serde_json::json!({ "classes": classes }));
+    // The order of classes is that of their numbers.
+    let (other_config, other) =
+        frame("classes: {road: [\"road*\", {material: \"asphalt*\"}], car: \"car_*\"}\n");
+    assert!(one.id != plain.id && one.id != other.id);
+    assert!(one_config != plain_config && one_config != other_config);
 }

@@ -1,6 +1,7 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
 
 mod aim;
+mod animation;
 mod attributes;
 mod bvh;
 mod error;
@@ -8,16 +9,18 @@ mod features;
 mod geometry;
 mod gltf_load;
 mod material;
+mod name_pattern;
 mod texture;
 mod triangle;
 mod uv_transform;
 
+pub use animation::Animation;
 pub use attributes::CornerValues;
 pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
 pub use features::Features;
 pub use geometry::Geometry;
-pub use gltf_load::{Limits, LoadedScene, SceneObject, load, load_bytes};
+pub use gltf_load::{Limits, LoadedScene, SceneFile, SceneNode, SceneObject, load, load_bytes};
 pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef};
 pub use texture::{Encoding, Filter, Image, Texture, Wrap};
 pub use triangle::{SurfacePoint, Triangle, offset_origin};
@@ -29,6 +32,7 @@ pub mod cie_sky;
 pub mod dome;
 pub mod emitters;
 pub mod ies;
+pub mod labels;
 pub mod lamp;
 pub mod light;
 pub mod light_groups;
@@ -36,6 +40,7 @@ pub mod light_tree;
 pub mod medium;
 pub mod moon;
 pub mod phase;
+pub mod phase_angles;
 pub mod photometry;
 pub mod scene;
 pub mod sky_map;

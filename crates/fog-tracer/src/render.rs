@@ -1,10 +1,11 @@
 //! The tile scheduler: pixels in parallel, each a function of (scene, camera, settings, seed) alone.
 
+use crate::budget::{means, pilot, share_out, spread};
 use crate::groups::GroupLight;
 use crate::path::{PathRadiance, PathTracer};
 use crate::rounds::{Round, next_round};
 use crate::seen_lamps::seen_lamps;
-use crate::settings::Settings;
+use crate::settings::{Settings, Stop};
 use crate::truth::truth;
 use fog_core::colour::{Observer, Rgb};
 use fog_core::random::{PathRng, stratified};
@@ -46,7 +47,7 @@ pub fn render(
     let tracer = PathTracer::new(scene, observer, *settings);
     let count = camera.width as usize * camera.height as usize;
     let groups = group_names(scene);
-    let mut films = [Films::new(count, groups.len())];
+    let mut films = [Films::new(count, groups.len() + usize::from(tracer.has_sensor()))];
     let pixel = |i, samples, films: &mut [Films], k| {
         let (film, groups) = films[0].pixel(k);
         tracer.pixel((camera, i), seed, samples, film, groups);
@@ -58,7 +59,7 @@ pub fn render(
     let truth = truth(scene, camera, settings.wavelength_nm);
     let frame = Frame::from_pixels(camera.width, camera.height, channels(settings), &films.pixels, truth)?;
     let lamps = seen_lamps(scene, camera, observer, settings.wavelength_nm);
-    frame.with_groups(groups, &films)?.with_points(&lamps).map(Some)
+    frame.with_groups(groups, &films)?.with_sensor(&films)?.with_points(&lamps).map(Some)
 }
 
 /// What the channels of the frames mean.
@@ -84,12 +85,27 @@ where
     P: Fn(usize, Range<u64>, &mut [Films], usize) + Sync,
 {
     let (count, frames) = (films[0].pixels.len(), films.len() as u64);
-    let all = (0..count).map(|i| (i, settings.samples)).collect();
-    let mut round = Round { pixels: all, expected: settings.samples * count as u64 };
+    let samples = settings.samples;
+    if let Some(half) = pilot(samples).filter(|_| settings.stop == Some(Stop::Budget)) {
+        trace(films, &Round::of_all(count, 0, half), pixel, progress)?;
+        let first: Vec<_> = films.iter().map(|films| means(&films.pixels)).collect();
+        trace(films, &Round::of_all(count, half, 2 * half), pixel, progress)?;
+        // Frames that share paths share what each of them wants.
+        let mut wanted = vec![0.0; count];
+        for (first, films) in first.iter().zip(films.iter()) {
+            for (sum, wants) in wanted.iter_mut().zip(spread(first, &films.pixels, width)) {
+                *sum += wants;
+            }
+        }
+        let round = share_out(&wanted, samples, 2 * half);
+        progress(Work::Left(round.expected * frames));
+        return trace(films, &round, pixel, progress);
+    }
+    let mut round = Round::of_all(count, 0, samples);
     while !round.pixels.is_empty() {
         trace(films, &round, pixel, progress)?;
-        let Some(stop) = &settings.stop else { break };
-        let next = films.iter().map(|films| next_round(&films.pixels, width, stop));
+        let Some(Stop::Noise(target)) = &settings.stop else { break };
+        let next = films.iter().map(|films| next_round(&films.pixels, width, target));
         round = next.reduce(Round::union).unwrap_or_default();
         progress(Work::Left(round.expected * frames));
     }
@@ -164,7 +180,8 @@ pub(crate) struct Start {
 }
 
 impl PathTracer<'_> {
-    /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order.
+    /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order. The last sum is that of
+    /// the sensor's channels if there is a sensor.
     fn pixel(
         &self,
         (camera, i): (&Camera, usize),
@@ -173,14 +190,22 @@ impl PathTracer<'_> {
         film: &mut PixelFilm,
         groups: &mut [[f64; 3]],
     ) {
+        let (groups, sensor) = groups.split_at_mut(groups.len() - usize::from(self.has_sensor()));
         let mut light = GroupLight::new(self.scene, groups.len(), 1);
         for sample in samples {
-            let Sample { direct, airlight } = if groups.is_empty() {
+            let Sample { direct, airlight } = if groups.is_empty() && sensor.is_empty() {
                 self.sample(camera, i, seed, sample)
             } else if let Some(mut start) = self.start(camera, i, seed, sample) {
                 light.clear();
-                let seen =
-                    self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light);
+                let seen = if groups.is_empty() {
+                    self.radiance(start.ray, &start.wavelengths, start.flight, &mut start.rng)
+                } else {
+                    self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light)
+                };
+                if let Some(sum) = sensor.first_mut() {
+                    let channels = self.sensor_value(&start.wavelengths, &(seen.radiance + seen.glow));
+                    (0..3).for_each(|c| sum[c] += f64::from(channels[c]));
+                }
                 let response = self.response(&start.wavelengths);
                 for (sum, [direct, airlight]) in groups.iter_mut().zip(light.parts()) {
                     let rgb = film_value(response.as_ref(), &(direct + airlight));
@@ -212,7 +237,7 @@ impl PathTracer<'_> {
     pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Option<Start> {
         let (x, y) = (i % camera.width as usize, i / camera.width as usize);
         // The first seven dimensions are stratified over the pixel's samples, the rest a plain random stream.
-        let first = stratified(seed, i as u64, sample);
+        let first = stratified(seed, i as u64, sample, self.branches);
         let [dx, dy] = first.pixel.map(f64::from);
         let image_point = [x as f64 + dx, y as f64 + dy];
         let wavelengths = match self.settings.wavelength_nm {
@@ -224,7 +249,7 @@ impl PathTracer<'_> {
             ray: camera.ray(image_point[0], image_point[1])?,
             wavelengths,
             flight: first.flight,
-            rng: PathRng::new(seed, i as u64, sample).with_first(first.turn, first.second_flight),
+            rng: PathRng::new(seed, i as u64, sample).with_first(first.turns),
         })
     }
 
@@ -232,6 +257,19 @@ impl PathTracer<'_> {
     #[inline]
     pub(crate) fn response(&self, wavelengths: &Wavelengths) -> Option<Response> {
         self.settings.wavelength_nm.is_none().then(|| self.observer.lane_response(wavelengths))
+    }
+
+    /// Whether a sensor's channels are recorded beside the observer's.
+    #[inline]
+    pub(crate) fn has_sensor(&self) -> bool {
+        self.settings.wavelength_nm.is_none() && self.observer.sensor().is_some()
+    }
+
+    /// What the sensor's channels get of a radiance; 0 without one.
+    #[inline]
+    pub(crate) fn sensor_value(&self, wavelengths: &Wavelengths, radiance: &Spectrum) -> Rgb {
+        let Some(sensor) = self.observer.sensor() else { return [0.0; 3] };
+        film_value(Some(&sensor.lane_response(wavelengths)), radiance)
     }
 }
 

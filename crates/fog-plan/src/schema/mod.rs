@@ -6,6 +6,7 @@ mod camera;
 mod droplets;
 mod exposure;
 mod fog;
+mod labels;
 mod lens;
 mod light;
 mod or_none;
@@ -13,6 +14,7 @@ mod patchiness;
 mod path;
 mod phase;
 mod scene;
+mod sensor_model;
 mod sky;
 mod sweep;
 
@@ -21,10 +23,13 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile, ShareFile};
+pub(crate) use camera::{
+    AllocateFile, ApproximationFile, CameraFile, OutputFile, RenderFile, SensorFile, ShareFile,
+};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
+pub(crate) use labels::{ClassesFile, LabelsFile, NameFile, NamesFile};
 pub(crate) use lens::{IntrinsicsFile, LensFile};
 pub(crate) use light::{
     EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset, SunFile,
@@ -37,6 +42,10 @@ pub(crate) use path::{
 };
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
+pub(crate) use sensor_model::{
+    BayerFile, PsfFile, ResponseFile, SensorModelFile, SensorModelMap, SensorModelWord, SensorPreset,
+    VignettingFile,
+};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
 };
@@ -78,6 +87,14 @@ pub(crate) struct ConfigFile {
     pub(crate) lighting: LightingFile,
     /// How the picture is computed.
     pub(crate) render: RenderFile,
+    /// Classes of surfaces by names of nodes, meshes (with all that is below such nodes) and materials; `*` in a name stands for
+    /// any text. The first class whose name fits counts, before any class that the scene file gives. Names other than those of
+    /// Cityscapes and of the made scenes become new classes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) classes: Option<ClassesFile>,
+    /// When a thing counts as detectable in the output `objects`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) labels: Option<LabelsFile>,
     /// What is written for each frame.
     #[schemars(extend("uniqueItems" = true), length(min = 1))]
     pub(crate) outputs: Outputs,
@@ -103,7 +120,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
+/// Names of the outputs; unless said otherwise those up to `airlight`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);

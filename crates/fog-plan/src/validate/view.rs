@@ -2,10 +2,12 @@
 
 use super::{Check, lens::Geometry};
 use crate::{
-    frame::{Output, RenderSpec, SensorSpec, StopSpec},
+    frame::{Allocate, Approximation, Output, RenderSpec, SensorSpec, StopSpec},
     lens::ShutterSpec,
     ranges,
-    schema::{OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile},
+    schema::{
+        AllocateFile, ApproximationFile, OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile,
+    },
     share::Share,
 };
 
@@ -20,6 +22,7 @@ impl Check<'_> {
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
         let geometry = self.geometry(sensor, [width, height]);
         let exposure = self.exposure(&sensor.exposure);
+        let model = self.sensor_model(sensor.model.as_ref(), exposure.as_ref());
         let Geometry { horizontal_fov_deg, intrinsics, lens, projection } = geometry?;
         Some(SensorSpec {
             width_px: width?,
@@ -35,6 +38,7 @@ impl Check<'_> {
                 _ => None,
             },
             exposure: exposure?,
+            model: model?,
         })
     }
 
@@ -46,17 +50,42 @@ impl Check<'_> {
         };
         let wavelength = self.optional("render.wavelength_nm", render.wavelength_nm, ranges::WAVELENGTH_NM);
         let stop = self.stop(render, samples);
+        let allocate = self.allocate(render);
         let share = render.share.map(|share| match share {
             ShareFile::Lights => Share::Lights,
             ShareFile::Fog => Share::Fog,
         });
+        let approximation =
+            render.approximation.map(|ApproximationFile::Similarity| Approximation::Similarity);
+        if approximation.is_some() && share == Some(Share::Fog) {
+            self.problem(
+                "render.approximation",
+                "paths that several fogs share (render.share: fog) know none",
+            );
+            return None;
+        }
         Some(RenderSpec {
+            approximation,
             samples: samples?,
             stop: stop?,
+            allocate: allocate?,
             max_depth: depth?,
             wavelength_nm: wavelength?,
             share,
         })
+    }
+
+    /// How samples are shared out; the outer option is the check's success.
+    fn allocate(&mut self, render: &RenderFile) -> Option<Option<Allocate>> {
+        if render.allocate != Some(AllocateFile::RelativeError) {
+            return Some(None);
+        }
+        if render.noise.is_some() {
+            let message = "render.noise already says which pixels get more samples: leave one of the two out";
+            self.problem("render.allocate", message);
+            return None;
+        }
+        Some(Some(Allocate::RelativeError))
     }
 
     /// Until when pixels are sampled; the outer option is the check's success.
@@ -91,7 +120,7 @@ impl Check<'_> {
         Some(Some(StopSpec { noise: noise?, max_samples }))
     }
 
-    pub(super) fn outputs(&mut self, outputs: &Outputs) -> Option<Vec<Output>> {
+    pub(super) fn outputs(&mut self, outputs: &Outputs, on_path: bool) -> Option<Vec<Output>> {
         if outputs.0.is_empty() {
             self.problem("outputs", "empty; name at least one output");
             return None;
@@ -106,6 +135,12 @@ impl Check<'_> {
         let index = outputs.0.iter().position(|output| *output == OutputFile::Denoised);
         if let Some(index) = index.filter(|_| !outputs.0.contains(&OutputFile::Hdr)) {
             let message = "denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
+            self.problem(&format!("outputs.{index}"), message);
+            fine = false;
+        }
+        let index = outputs.0.iter().position(|output| *output == OutputFile::Flow);
+        if let Some(index) = index.filter(|_| !on_path) {
+            let message = "flow is the motion to the next pose of a path: give `path`";
             self.problem(&format!("outputs.{index}"), message);
             fine = false;
         }
@@ -128,5 +163,14 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
         OutputFile::Denoised => Output::Denoised,
+        OutputFile::Normals => Output::Normals,
+        OutputFile::Position => Output::Position,
+        OutputFile::Albedo => Output::Albedo,
+        OutputFile::Semantic => Output::Semantic,
+        OutputFile::Instance => Output::Instance,
+        OutputFile::Flow => Output::Flow,
+        OutputFile::Objects => Output::Objects,
+        OutputFile::Raw => Output::Raw,
+        OutputFile::Pair => Output::Pair,
     }
 }

@@ -3,7 +3,8 @@
 use super::accessor::Buffers;
 use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
-use super::{SceneObject, Warnings, lights};
+use super::{SceneNode, SceneObject, Warnings, lights};
+use crate::animation::Animation;
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::lamp::{LightNames, PunctualLights};
@@ -25,7 +26,12 @@ pub(super) struct Flat {
     pub(super) triangles: Vec<Triangle>,
     pub(super) colors: CornerValues,
     pub(super) tangents: CornerValues,
+    pub(super) nodes: Vec<SceneNode>,
     pub(super) objects: Vec<SceneObject>,
+    /// glTF's index of each object's node.
+    pub(super) object_nodes: Vec<usize>,
+    /// The node above each node; none of those of the scene itself, and of those that are not in it.
+    pub(super) parents: Vec<Option<usize>>,
     pub(super) lights: PunctualLights,
     pub(super) light_names: LightNames,
 }
@@ -33,17 +39,19 @@ pub(super) struct Flat {
 /// What a node hands down to its children.
 #[derive(Clone)]
 struct Inherited {
+    node: Option<u32>,
     world: DMat4,
     class: Option<Rc<str>>,
     instance: Option<Rc<str>>,
 }
 
-/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one.
+/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
+/// everything is where it is at the time.
 pub(super) fn flatten(
-    document: &Document,
+    (document, motion): (&Document, Option<(&Animation, f64)>),
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
-    distributions: &mut Distributions<'_>,
+    distributions: &mut Distributions,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -56,10 +64,11 @@ pub(super) fn flatten(
     let mut left = max_triangles;
     let mut degenerate = 0u64;
 
-    let root = Inherited { world: DMat4::IDENTITY, class: None, instance: None };
+    let root = Inherited { node: None, world: DMat4::IDENTITY, class: None, instance: None };
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
+    flat.parents = vec![None; seen.len()];
     while let Some((node, above)) = open.pop() {
         let name = node_name(&node);
         let place = || format!("node `{name}`");
@@ -69,15 +78,30 @@ pub(super) fn flatten(
             return Err(SceneErrorKind::Node(text.into()).at(place));
         }
         let mesh = node.mesh();
-        let label = |key: &str, above: &Option<Rc<str>>| {
+        let label = |key: &str| {
             let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
-            text(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+            text(node.extras(), key).or_else(of_mesh)
+        };
+        let (class, instance) = (label("class"), label("instance"));
+        let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
+        let local = match motion {
+            Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
+            None => local_transform(&node),
         };
         let here = Inherited {
-            world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
-            class: label("class", &above.class),
-            instance: label("instance", &above.instance),
+            node: Some(flat.nodes.len() as u32),
+            world: above.world * local.map_err(|e| e.at(place))?,
+            class: class.clone().or_else(|| above.class.clone()),
+            instance: instance.clone().or_else(|| above.instance.clone()),
         };
+        flat.nodes.push(SceneNode {
+            name: name.clone(),
+            parent: above.node,
+            class: owned(&class),
+            instance: owned(&instance),
+            keypoints: keypoints(node.extras()),
+            world: here.world,
+        });
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
             lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
@@ -95,9 +119,11 @@ pub(super) fn flatten(
                 }
             };
             let object = flat.objects.len() as u32;
-            let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
+            flat.object_nodes.push(node.index());
             flat.objects.push(SceneObject {
+                node: flat.nodes.len() as u32 - 1,
                 name: name.clone(),
+                mesh: mesh.name().map(str::to_owned),
                 class: owned(&here.class),
                 instance: owned(&here.instance),
             });
@@ -111,6 +137,9 @@ pub(super) fn flatten(
                     .map_err(|e| e.at(place))?;
             }
         }
+        for child in node.children() {
+            flat.parents[child.index()] = Some(node.index());
+        }
         let first_child = open.len();
         open.extend(node.children().map(|child| (child, here.clone())));
         open[first_child..].reverse();
@@ -121,7 +150,7 @@ pub(super) fn flatten(
     Ok(flat)
 }
 
-fn node_name(node: &Node<'_>) -> String {
+pub(super) fn node_name(node: &Node<'_>) -> String {
     let of_mesh = || node.mesh().and_then(|mesh| mesh.name().map(str::to_owned));
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
@@ -133,12 +162,25 @@ pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<serde_json
 }
 
 /// A string in `extras`.
-fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+pub(super) fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
     extra(extras, key)?.as_str().map(Rc::from)
 }
 
+/// Points in `extras` that are three finite numbers.
+fn keypoints(extras: &gltf::json::Extras) -> Vec<(String, DVec3)> {
+    let Some(extras) = extras.as_ref() else { return Vec::new() };
+    let Ok(extras) = serde_json::from_str::<serde_json::Value>(extras.get()) else { return Vec::new() };
+    let own = extras["keypoint"].as_str().map(|name| (name.to_owned(), DVec3::ZERO));
+    let listed = extras["keypoints"].as_object().into_iter().flatten().filter_map(|(name, point)| {
+        let [x, y, z] = point.as_array()?.as_slice() else { return None };
+        let point = DVec3::new(x.as_f64()?, y.as_f64()?, z.as_f64()?);
+        point.is_finite().then(|| (name.clone(), point))
+    });
+    own.into_iter().chain(listed).collect()
+}
+
 /// A node's own matrix, in f64.
-fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
+pub(super) fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
     let matrix = match node.transform() {
         Transform::Matrix { matrix } => {
             DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
