@@ -28,4 +28,4 @@ mod shared_words;
 pub mod spectrum;
 pub mod warp;
 
-pub use glam::{Mat4, Quat, Vec2, Vec3, Vec3A};
+pub use glam::{DVec3, Mat4, Quat, Vec2, Vec3, Vec3A};

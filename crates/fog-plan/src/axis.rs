@@ -13,7 +13,7 @@ use crate::{
 use serde::Deserialize;
 
 /// Sections of a frame: what an axis can change.
-const SECTIONS: [&str; 7] = ["scene", "fog", "camera", "sensor", "lighting", "render", "outputs"];
+const SECTIONS: [&str; 8] = ["scene", "fog", "camera", "sensor", "lighting", "render", "outputs", "runway"];
 
 /// Floating-point steps may miss the last value by rounding: this share of a step still counts.
 const STEP_SLACK: f64 = 1e-9;

@@ -10,6 +10,7 @@ use crate::{
     lens::{IntrinsicsSpec, LensSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    runway::RunwaySpec,
     scene::SceneSpec,
     sensor::ExposureSpec,
     share::Share,
@@ -47,6 +48,9 @@ pub struct FrameSpec {
     pub render: RenderSpec,
     /// What is written, in the order of [`Output`], each once.
     pub outputs: Vec<Output>,
+    /// What the configuration says about the runway of the record; left out where it says nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runway: Option<RunwaySpec>,
 }
 
 fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) -> Result<S::Ok, S::Error> {

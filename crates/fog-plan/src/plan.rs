@@ -130,7 +130,7 @@ impl Plan {
             true => vec![self.name.clone()],
             false => values.iter().map(Node::short).collect(),
         };
-        let validate::Content { scene, fog, camera, sensor, lighting, render, outputs } = content;
+        let validate::Content { scene, fog, camera, sensor, lighting, render, outputs, runway } = content;
         Ok(FrameSpec {
             id: identity.id(&words),
             index,
@@ -145,6 +145,7 @@ impl Plan {
             lighting,
             render,
             outputs,
+            runway,
         })
     }
 
@@ -209,9 +210,9 @@ impl Plan {
 impl Node {
     /// Top-level keys in the order of the schema.
     pub(crate) fn sort_sections(&mut self) {
-        const ORDER: [&str; 11] = [
+        const ORDER: [&str; 12] = [
             "version", "name", "seed", "scene", "fog", "camera", "sensor", "lighting", "render", "outputs",
-            "sweep",
+            "runway", "sweep",
         ];
         if let Value::Map(entries) = &mut self.value {
             entries.sort_by_key(|entry| ORDER.iter().position(|key| *key == entry.key));

@@ -11,6 +11,7 @@ mod light;
 mod or_none;
 mod patchiness;
 mod phase;
+mod runway;
 mod scene;
 mod sky;
 mod sweep;
@@ -29,6 +30,7 @@ pub(crate) use light::{
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use runway::RunwayFile;
 pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
@@ -68,6 +70,9 @@ pub(crate) struct ConfigFile {
     /// What is written for each frame.
     #[schemars(extend("uniqueItems" = true), length(min = 1))]
     pub(crate) outputs: Outputs,
+    /// The runway that the records are about. Absent: the scene's, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runway: Option<RunwayFile>,
     /// Axes whose values are multiplied out into frames.
     pub(crate) sweep: Option<SweepFile>,
 }

@@ -7,6 +7,7 @@ mod lens;
 mod light_groups;
 mod lighting;
 mod patchiness;
+mod runway;
 mod scene;
 mod sky;
 mod view;
@@ -23,6 +24,7 @@ use crate::{
     node::Node,
     ranges::Range,
     read::read,
+    runway::RunwaySpec,
     scene::SceneSpec,
     schema::ConfigFile,
     words::did_you_mean,
@@ -38,6 +40,8 @@ pub(crate) struct Content {
     pub(crate) lighting: LightingSpec,
     pub(crate) render: RenderSpec,
     pub(crate) outputs: Vec<Output>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runway: Option<RunwaySpec>,
 }
 
 /// Reads and checks the tree of one frame.
@@ -73,6 +77,7 @@ impl Check<'_> {
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let camera = self.camera(&file.camera, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let outputs = self.outputs(&file.outputs);
+        let runway = self.runway(file.runway.as_ref());
         Some(Content {
             scene: scene?,
             fog: fog?,
@@ -81,6 +86,7 @@ impl Check<'_> {
             lighting: lighting?,
             render: render?,
             outputs: outputs?,
+            runway: runway?,
         })
     }
 

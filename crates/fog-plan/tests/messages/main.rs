@@ -3,6 +3,7 @@
 mod cameras;
 mod includes;
 mod lights;
+mod runways;
 mod scenes;
 mod sensor;
 

@@ -73,6 +73,8 @@ pub struct LoadedScene {
     pub lights: PunctualLights,
     /// Whose they are.
     pub light_names: LightNames,
+    /// `extras` of the scene; null if it has none.
+    pub extras: serde_json::Value,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -128,6 +130,10 @@ fn decode(bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<Load
             SceneErrorKind::TooManyNodes { limit: limits.max_nodes, found: document.nodes().len() }.into()
         );
     }
+    let extras = nodes::default_scene(&document).and_then(|scene| {
+        let extras = scene.extras().as_ref()?;
+        serde_json::from_str(extras.get()).ok()
+    });
     let buffers = accessor::Buffers::load(&document, blob, &mut files)?;
 
     let mut images = images::Images::new(&document, &buffers, &mut files, limits.max_texture_pixels);
@@ -144,5 +150,14 @@ fn decode(bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<Load
     let shared: Arc<[Texture]> = textures.iter().cloned().collect();
     let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
     let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
-    Ok(LoadedScene { geometry, materials, textures, objects, lights, light_names, warnings: warnings.0 })
+    Ok(LoadedScene {
+        geometry,
+        materials,
+        textures,
+        objects,
+        lights,
+        light_names,
+        extras: extras.unwrap_or_default(),
+        warnings: warnings.0,
+    })
 }

@@ -37,6 +37,11 @@ struct Inherited {
     instance: Option<Rc<str>>,
 }
 
+/// The default scene, or the first.
+pub(super) fn default_scene(document: &Document) -> Option<gltf::Scene<'_>> {
+    document.default_scene().or_else(|| document.scenes().next())
+}
+
 /// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one.
 pub(super) fn flatten(
     document: &Document,
@@ -45,8 +50,7 @@ pub(super) fn flatten(
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
-    let scene = document.default_scene().or_else(|| document.scenes().next());
-    let scene = scene.ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
+    let scene = default_scene(document).ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
     let mut flat = Flat::default();
     let mut meshes: BTreeMap<usize, Rc<[Primitive]>> = BTreeMap::new();
     // Triangles are counted in 31 bits.
