@@ -60,16 +60,12 @@ fn advection(height_m: f64) -> Medium {
 
 /// The street with a few lamps above it.
 fn lamplit() -> Arc<LoadedScene> {
-    let lamp = |x: f32, y: f32, z: f32, intensity: [f32; 3]| Lamp {
-        position: Vec3A::new(x, y, z),
-        intensity,
-        cone: None,
-    };
+    let lamp = |x: f32, y: f32, z: f32, intensity: [f32; 3]| Lamp::even(Vec3A::new(x, y, z), intensity);
     let cone = Cone { axis: Vec3A::new(0.1, -1.0, 0.05).normalize(), cos_inner: 0.9, cos_outer: 0.6 };
     let lamps = vec![
         lamp(-5.0, 6.0, -18.0, [60.0, 45.0, 20.0]),
         lamp(5.0, 7.0, -30.0, [40.0, 60.0, 80.0]),
-        Lamp { cone: Some(cone), ..lamp(0.0, 9.0, -24.0, [300.0, 250.0, 200.0]) },
+        Lamp::spot(Vec3A::new(0.0, 9.0, -24.0), [300.0, 250.0, 200.0], cone),
         lamp(3.0, 5.0, -70.0, [400.0; 3]),
     ];
     let street = scenes::load("street_day.glb");

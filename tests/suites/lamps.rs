@@ -9,7 +9,8 @@ use fog_core::random::PathRng;
 use fog_core::spectrum::Wavelengths;
 use fog_core::{Vec3A, math};
 use fog_scene::camera::Ray;
-use fog_scene::lamp::{Beam, Cone, Lamp, LampTree, PunctualLights};
+use fog_scene::ies::IesFile;
+use fog_scene::lamp::{Beam, Cone, Lamp, LampTree, Measured, Pattern, PunctualLights};
 use fog_scene::light_tree::Receiver;
 use fog_scene::medium::Medium;
 use fog_scene::phase::Phase;
@@ -18,7 +19,7 @@ use fog_scene::{Geometry, LoadedScene, Triangle};
 use fog_tests::{chi_square, scenes};
 use fog_tracer::path::PathTracer;
 use fog_tracer::settings::Settings;
-use glam::Vec3;
+use glam::{Mat3A, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -27,12 +28,33 @@ fn lit(scene: &LoadedScene, lamps: Vec<Lamp>, beams: Vec<Beam>) -> Arc<LoadedSce
 }
 
 fn point(x: f32, y: f32, z: f32, intensity: [f32; 3]) -> Lamp {
-    Lamp { position: Vec3A::new(x, y, z), intensity, cone: None }
+    Lamp::even(Vec3A::new(x, y, z), intensity)
 }
 
 fn spot(x: f32, y: f32, z: f32, intensity: f32, axis: Vec3A) -> Lamp {
     let cone = Cone { axis: axis.normalize(), cos_inner: 0.95, cos_outer: 0.7 };
-    Lamp { cone: Some(cone), ..point(x, y, z, [intensity; 3]) }
+    Lamp::spot(Vec3A::new(x, y, z), [intensity; 3], cone)
+}
+
+/// A lamp at a point whose axis looks down, from a file of I = `candela` cosⁿ θ in steps of a degree, in two planes.
+fn measured(at: Vec3A, candela: f32, n: i32, lamp_from_world: Mat3A) -> Lamp {
+    let angles: Vec<f64> = (0..=90).map(f64::from).collect();
+    let row: Vec<String> =
+        angles.iter().map(|a| format!("{}", math::f64::cos(a.to_radians()).max(0.0).powi(n))).collect();
+    let (row, angles) = (row.join(" "), angles.iter().map(f64::to_string).collect::<Vec<_>>().join(" "));
+    let text = format!(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 {candela} 91 2 1 2 0 0 0\n1 1 10\n{angles}\n0 90\n{row}\n{row}\n"
+    );
+    let photometry = IesFile::parse(&text).unwrap().photometry;
+    let want = f64::from(candela) * 2.0 * PI / f64::from(n + 1);
+    assert!((photometry.flux_lm() / want - 1.0).abs() < 1e-3, "{} lm for {want}", photometry.flux_lm());
+    let pattern = Pattern::Measured(Measured { photometry: Arc::new(photometry), lamp_from_world });
+    Lamp { pattern, ..Lamp::even(at, [candela; 3]) }
+}
+
+/// −Y of the world to −Z of a lamp.
+fn looking_down() -> Mat3A {
+    Mat3A::from_cols(Vec3A::X, Vec3A::Z, Vec3A::NEG_Y)
 }
 
 /// White of the three basis colours at one wavelength: 1 within 0.3 %.
@@ -73,11 +95,15 @@ fn one_candela_over_a_ground() {
     let off_axis = lit(&ground, vec![spot(0.0, 4.0, 0.0, 100.0, Vec3A::NEG_Y)], vec![]);
     let direction = Vec3A::new(0.6, 0.8, 0.0);
     let beam = lit(&ground, vec![], vec![Beam { direction, illuminance: [5.0; 3] }]);
+    let ies = lit(&ground, vec![measured(Vec3A::new(0.0, 4.0, 0.0), 100.0, 4, looking_down())], vec![]);
     let ramp: f64 = (0.8 - 0.7) / (0.95 - 0.7);
     let e = 100.0 * 0.8 / 25.0;
-    for (name, loaded, want) in
-        [("point", lamp, e), ("spot", off_axis, e * ramp * ramp), ("beam", beam, 5.0 * 0.8)]
-    {
+    for (name, loaded, want) in [
+        ("point", lamp, e),
+        ("spot", off_axis, e * ramp * ramp),
+        ("measured", ies, e * 0.8f64.powi(4)),
+        ("beam", beam, 5.0 * 0.8),
+    ] {
         for luminance in [1.0, 50.0] {
             let scene = Scene::new(loaded.clone(), None, None, None, true).with_luminance_of_one(luminance);
             let got = seen(&scene, down, Some(2), 550.0, 4000);
@@ -134,6 +160,7 @@ fn halos_against_quadrature() {
         point(1.0, 21.0, -15.0, [30.0; 3]),
         point(-8.0, 24.0, -40.0, [200.0; 3]),
         spot(4.0, 30.0, -12.0, 500.0, Vec3A::new(-0.3, -1.0, 0.0)),
+        measured(Vec3A::new(-3.0, 32.0, -25.0), 700.0, 8, looking_down()),
     ];
     let scene = Scene::new(lit(&scenes::empty(), lamps.clone(), vec![]), Some(fog), None, None, true);
     for (k, direction) in [Vec3A::NEG_Z, Vec3A::new(0.07, 0.06, -1.0), Vec3A::new(-0.2, 0.3, -1.0), Vec3A::Z]

@@ -16,8 +16,7 @@ use std::sync::Arc;
 /// The street by night with every kind of light.
 fn street(environment: f32, intensities: Option<[f32; 5]>) -> Scene {
     let street = scenes::load("street_night.glb");
-    let lamp =
-        |x: f32| Lamp { position: Vec3A::new(x, 5.0, -12.0), intensity: [40.0, 60.0, 50.0], cone: None };
+    let lamp = |x: f32| Lamp::even(Vec3A::new(x, 5.0, -12.0), [40.0, 60.0, 50.0]);
     let beam = Beam { direction: Vec3A::new(0.3, 0.9, 0.2).normalize(), illuminance: [0.2, 0.1, 0.1] };
     let lights = PunctualLights { lamps: vec![lamp(2.0), lamp(-2.0)], beams: vec![beam] };
     let names = |list: &[&str]| list.iter().map(|&s| s.to_owned()).collect();

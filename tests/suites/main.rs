@@ -19,6 +19,7 @@ mod radiances;
 mod reciprocity;
 mod replay;
 mod samplers;
+mod seen_lamps;
 mod shared;
 mod sky;
 mod street;

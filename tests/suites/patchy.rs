@@ -79,7 +79,7 @@ fn agrees_with_null_collisions() {
 
 #[test]
 fn lamps_in_patches() {
-    let lamp = Lamp { position: Vec3A::new(1.0, 4.0, -12.0), intensity: [300.0; 3], cone: None };
+    let lamp = Lamp::even(Vec3A::new(1.0, 4.0, -12.0), [300.0; 3]);
     let lights = PunctualLights { lamps: vec![lamp], beams: Vec::new() };
     let lit = Arc::new(LoadedScene { lights, ..(*scenes::load("street_day.glb")).clone() });
     let scene = Scene::new(lit, Some(patchy(coloured(), 0.6, 4.0, 1)), None, None, true);

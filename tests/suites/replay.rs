@@ -60,7 +60,7 @@ fn replays_are_what_the_film_got() {
 
 #[test]
 fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
-    let lamp = Lamp { position: Vec3A::new(1.0, 4.0, -12.0), intensity: [300.0; 3], cone: None };
+    let lamp = Lamp::even(Vec3A::new(1.0, 4.0, -12.0), [300.0; 3]);
     let street = scenes::load("street_day.glb");
     let lights = PunctualLights { lamps: vec![lamp], beams: Vec::new() };
     let lit = Arc::new(LoadedScene { lights, ..(*street).clone() });
@@ -70,14 +70,12 @@ fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
     let observer = Observer::new();
     let tracer = PathTracer::new(&scene, &observer, settings);
     let frame = scenes::render(&scene, &camera, 1, None, 9);
-    let mut near = 0;
+    let (mut near, mut lamps) = (0, 0);
     for i in 0..frame.pixel_count() {
         let replay = tracer.replay(&camera, i, 9, 0).expect("seen");
-        assert_eq!(
-            (replay.sample.direct, replay.sample.airlight),
-            (frame.direct[i], frame.airlight[i]),
-            "{i}"
-        );
+        let direct = [0, 1, 2].map(|c| replay.sample.direct[c] + replay.lamps[c]);
+        lamps += usize::from(replay.lamps != [0.0; 3]);
+        assert_eq!((direct, replay.sample.airlight), (frame.direct[i], frame.airlight[i]), "{i}");
         let mut sum = Spectrum::ZERO;
         replay.steps.iter().filter_map(Step::added).for_each(|added| sum += added);
         // What lamps add along the first flight has a sum of its own, so that the order of additions differs.
@@ -87,4 +85,5 @@ fn light_that_was_chosen_by_nearness_to_a_lamp_is_told() {
         near += replay.steps.iter().filter(|step| matches!(step, Step::NearLamp { .. })).count();
     }
     assert!(near > 100, "{near}");
+    assert_eq!(lamps, 1, "the lamp stands in one pixel");
 }

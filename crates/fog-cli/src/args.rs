@@ -5,6 +5,7 @@ mod figures;
 mod fit;
 mod fog_source;
 mod form;
+mod merge;
 mod mie;
 mod number;
 mod optics;
@@ -18,6 +19,7 @@ pub(crate) use figures::{FigureFormat, FiguresArgs};
 pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
 pub(crate) use fog_source::FogSourceArgs;
 pub(crate) use form::FormArgs;
+pub(crate) use merge::MergeArgs;
 pub(crate) use mie::MieArgs;
 pub(crate) use optics::OpticsArgs;
 pub(crate) use replay::ReplayArgs;
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     Scene(SceneArgs),
     /// Fit a fog model to measured droplet counts.
     Fit(FitArgs),
+    /// Join folders that hold parts of one data set, and prove that nothing is missing.
+    Merge(MergeArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
@@ -142,6 +146,9 @@ pub(crate) struct PlanArgs {
     /// Print every frame with all its values, one JSON object per line.
     #[arg(long)]
     pub(crate) json: bool,
+    /// List every frame, not only the first 1000.
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) all: bool,
 }
 
 /// Arguments of `verify`.

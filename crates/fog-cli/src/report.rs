@@ -15,10 +15,17 @@ const NOMINAL_PATHS_PER_SECOND: f64 = 70_000.0;
 /// Seconds between progress lines where no terminal shows a bar.
 const LINE_SECONDS: u64 = 10;
 
+/// Longest plan whose every frame is looked at for its size; of longer ones as many, evenly spread.
+const LOOKED_AT: usize = 2000;
+
 /// Prints name, axes, size and estimates of a plan.
 pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Result<()> {
     let (mut paths, mut most, mut bytes) = (0u64, 0u64, 0u64);
-    let frames = plan.frames().collect::<Result<Vec<_>, _>>().map_err(fogbank::Error::from)?;
+    let count = plan.len().min(LOOKED_AT);
+    let frames = (0..count)
+        .map(|i| plan.frame((i as u128 * plan.len() as u128 / count as u128) as usize))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(fogbank::Error::from)?;
     for frame in &frames {
         paths += fogbank::path_count(frame);
         most += fogbank::most_paths(frame);
@@ -28,6 +35,8 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
         let outputs = fogbank::output_set(frame);
         bytes += fogbank::dataset::estimate_bytes(sensor.width_px, sensor.height_px, outputs, groups);
     }
+    let all = |sum: u64| (sum as u128 * plan.len() as u128 / count as u128) as u64;
+    let (paths, most, bytes) = (all(paths), all(most), all(bytes));
     let mode = plan.mode().map(|m| format!(" ({m})")).unwrap_or_default();
     writeln!(out, "{}: {} frame{}{mode}", plan.name(), plan.len(), if plan.len() == 1 { "" } else { "s" })?;
     for axis in plan.axes() {
@@ -35,7 +44,7 @@ pub(crate) fn print_plan(plan: &Plan, threads: usize, out: &mut dyn Write) -> Re
         writeln!(out, "  {:<20} {}{}", axis.path, axis.values.join(", "), if more { ", …" } else { "" })?;
     }
     let passes = fogbank::share_sets(&frames).len();
-    if passes < frames.len() {
+    if passes < frames.len() && frames.len() == plan.len() {
         let word = if passes == 1 { "pass" } else { "passes" };
         writeln!(out, "  {passes} {word}: frames share paths (render.share)")?;
     }

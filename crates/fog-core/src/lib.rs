@@ -6,6 +6,7 @@
 //! Conventions: SI inside (metres, 1/m, W m⁻² sr⁻¹ nm⁻¹), wavelengths in nanometres where a name says `_nm`, angles in
 //! radians unless a name says `_deg`. World: right-handed, +Y up; altitude is y over the fog's datum.
 
+pub mod attitude;
 pub mod bands;
 pub mod colour;
 pub mod daylight;

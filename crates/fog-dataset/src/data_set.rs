@@ -10,7 +10,7 @@ use crate::header::{FORMAT, FORMAT_VERSION, Header};
 use crate::marker::{Check, FileEntry, Marker};
 use crate::names::{CONFIG, HEADER, Kind, PLAN};
 use crate::opening::{self, Opening};
-use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan};
+use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan, read_header};
 
 /// What a data set is made from.
 #[derive(Clone, Debug)]
@@ -126,8 +126,23 @@ impl DataSet {
         }
         atomic::sync_dir(dir)?;
 
-        let places = info.plan.iter().enumerate().map(|(i, frame)| (frame.id.clone(), i)).collect();
-        Ok(Self { dir: dir.to_path_buf(), header: found, plan: info.plan, places })
+        Ok(Self::of(dir, found, info.plan))
+    }
+
+    /// Opens the data set that a folder holds, by its own plan.
+    ///
+    /// # Errors
+    /// [`Error::Io`] or [`Error::Damaged`] when its header or plan cannot be read.
+    pub fn open(dir: &Path) -> Result<Self> {
+        let header = read_header(dir)?;
+        let plan = plan::read(dir)?;
+        plan::check(&plan)?;
+        Ok(Self::of(dir, header, plan))
+    }
+
+    fn of(dir: &Path, header: Header, plan: Vec<PlanFrame>) -> Self {
+        let places = plan.iter().enumerate().map(|(i, frame)| (frame.id.clone(), i)).collect();
+        Self { dir: dir.to_path_buf(), header, plan, places }
     }
 
     /// The folder.

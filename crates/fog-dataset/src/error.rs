@@ -79,6 +79,14 @@ pub enum Error {
         /// The frame.
         frame: String,
     },
+    /// Folders whose frames are not of one plan and program.
+    #[error("{} and {} are not parts of one data set: their configurations or programs differ", a.display(), b.display())]
+    NotOneDataSet {
+        /// One folder.
+        a: PathBuf,
+        /// The other.
+        b: PathBuf,
+    },
     /// The folder is in use by something else.
     #[error("{} is not empty and holds no Fogbank data set (it has `{found}`); use an empty or a new folder",
         dir.display())]

@@ -38,6 +38,17 @@ pub struct GroupLayer {
     pub radiance: Vec<Rgb>,
 }
 
+/// Light of a source without extent, or a part of it, in one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLight {
+    /// The pixel, row-major.
+    pub pixel: usize,
+    /// Position of its group among [`Frame::groups`].
+    pub group: usize,
+    /// Mean radiance that it adds to the pixel; of a frame of one wavelength, channel 0 holds it.
+    pub radiance: Rgb,
+}
+
 /// A rendered frame: row-major, row 0 at the top, every channel width × height long.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -95,6 +106,26 @@ impl Frame {
     pub fn with_groups(mut self, names: Vec<String>, films: &Films) -> Result<Self, FrameError> {
         let layer = |(i, name)| GroupLayer { name, radiance: films.group(i) };
         self.groups = names.into_iter().enumerate().map(layer).collect();
+        self.check()?;
+        Ok(self)
+    }
+
+    /// The frame with light added to its direct light that is known without noise, and to the layers of its groups if it has
+    /// any.
+    ///
+    /// # Errors
+    /// As [`Frame::check`].
+    ///
+    /// # Panics
+    /// When there is no such pixel.
+    pub fn with_points(mut self, points: &[PointLight]) -> Result<Self, FrameError> {
+        let add = |sum: &mut Rgb, light: Rgb| (0..3).for_each(|c| sum[c] += light[c]);
+        for &PointLight { pixel, group, radiance } in points {
+            add(&mut self.direct[pixel], radiance);
+            if let Some(layer) = self.groups.get_mut(group) {
+                add(&mut layer.radiance[pixel], radiance);
+            }
+        }
         self.check()?;
         Ok(self)
     }

@@ -20,7 +20,7 @@ pub use compare::{CompareError, Comparison, DeltaE, ZScores, compare, psnr_db};
 pub use difference_map::Srgb8Picture;
 pub use error::FrameError;
 pub use films::Films;
-pub use frame::{Channels, Frame, GroupLayer, Truth};
+pub use frame::{Channels, Frame, GroupLayer, PointLight, Truth};
 pub use noise::{PixelNoise, noise_floor, relative_error};
 pub use picture::{Picture, Scale, srgb8};
 pub use pixel::PixelFilm;

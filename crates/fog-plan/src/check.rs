@@ -27,10 +27,12 @@ impl Plan {
 
     /// The check of `load`.
     pub(crate) fn check_quickly(&self, problems: &mut Problems) {
-        match &self.sweep {
-            Some(sweep) if sweep.len > FULL_CHECK => self.check_frames(probes(sweep), problems),
-            _ => self.check_frames(0..self.len(), problems),
+        if self.len() <= FULL_CHECK {
+            return self.check_frames(0..self.len(), problems);
         }
+        let combinations = self.sweep.as_ref().map_or_else(|| vec![0], probes);
+        let frames = combinations.into_iter().map(|combination| self.layout.first(combination));
+        self.check_frames(frames.chain(spread(self.len(), FULL_CHECK)), problems);
     }
 
     fn check_frames(&self, indices: impl IntoIterator<Item = usize>, problems: &mut Problems) {

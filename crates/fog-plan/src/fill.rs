@@ -12,13 +12,21 @@ use crate::{
         NIGHT_LUMINANCE_CD_M2, OZONE_DU, Outputs, PatchinessFile, RenderFile, SensorFile, SunFile, SweepFile,
         VerticalFile,
     },
+    set::remove,
     validate::{DEFAULT_ALBEDO, DEFAULT_FOV_DEG, DEFAULT_MAX_SAMPLES, DEFAULT_SCALE},
 };
 
 /// Fills in the defaults that do not depend on other keys.
 pub(crate) fn fill_sections(root: &mut Node) {
     put(root, "seed", &DEFAULT_SEED);
-    put(root, "camera", &CameraFile::default());
+    if has_path(root) {
+        // It says where the camera is. Its defaults may have come before an override made it.
+        if root.child("camera").is_some_and(|camera| camera.origin == Origin::Default) {
+            remove(root, &["camera".to_owned()]);
+        }
+    } else {
+        put(root, "camera", &CameraFile::default());
+    }
     put(root, "sensor", &SensorFile::default());
     put(root, "lighting", &LightingFile::default());
     put(root, "render", &RenderFile::default());
@@ -33,6 +41,18 @@ pub(crate) fn fill_sections(root: &mut Node) {
             fill(node);
         }
     }
+}
+
+/// Whether a path is there, or an axis brings one.
+fn has_path(root: &Node) -> bool {
+    let of_axes = |axes: &Node| match &axes.value {
+        Value::Map(entries) => {
+            entries.iter().any(|axis| axis.key.split(',').any(|path| path.trim() == "path"))
+        }
+        _ => false,
+    };
+    root.child("path").is_some()
+        || root.child("sweep").and_then(|sweep| sweep.child("axes")).is_some_and(of_axes)
 }
 
 /// Fills in the fog keys that its model has. Not when an axis changes the model: they may not belong to the next.

@@ -7,9 +7,11 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
-    lens::{IntrinsicsSpec, LensSpec},
+    lens::{IntrinsicsSpec, LensSpec, ShutterSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
+    path::PathSpec,
+    rig::RigSpec,
     runway::RunwaySpec,
     scene::SceneSpec,
     sensor::ExposureSpec,
@@ -40,6 +42,16 @@ pub struct FrameSpec {
     pub fog: FogSpec,
     /// Pose of the camera.
     pub camera: CameraSpec,
+    /// The rig that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rig: Option<RigSpec>,
+    /// The path that the camera is on. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathSpec>,
+    /// Pose of the camera when the lower edge of the image is exposed; `camera` is then that of the upper edge. Absent, and then
+    /// not written: all rows are exposed at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub readout_end: Option<CameraSpec>,
     /// Image plane.
     pub sensor: SensorSpec,
     /// Light sources.
@@ -271,6 +283,9 @@ pub struct SensorSpec {
     /// What all that makes: which direction each image point shows. Not written.
     #[serde(skip)]
     pub projection: Lens,
+    /// When the rows are exposed. Absent, and then not written: all at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
 }

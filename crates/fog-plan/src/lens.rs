@@ -66,3 +66,14 @@ impl LensSpec {
         *self == Self::Pinhole
     }
 }
+
+/// When the rows of an image are exposed; all at once where nothing is said.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShutterSpec {
+    /// One after another from the top, while the camera moves on.
+    Rolling {
+        /// Seconds from the upper edge of the image to the lower, above 0 up to 1.
+        readout_s: f64,
+    },
+}

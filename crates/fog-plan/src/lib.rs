@@ -21,6 +21,7 @@ mod fog_sources;
 mod frame;
 mod identity;
 mod include;
+mod layout;
 mod lens;
 mod light_groups;
 mod load;
@@ -28,10 +29,12 @@ mod merge;
 mod node;
 mod origin;
 mod patchiness;
+mod path;
 mod plan;
 mod presets;
 mod ranges;
 mod read;
+mod rig;
 mod runway;
 mod scene;
 mod schema;
@@ -51,12 +54,14 @@ pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
-pub use lens::{IntrinsicsSpec, LensSpec};
+pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};
 pub use origin::Origin;
 pub use patchiness::PatchinessSpec;
+pub use path::{ApproachSpec, NextSpec, PathSpec};
 pub use plan::{AxisSummary, Plan};
+pub use rig::{PoseSpec, RigSpec};
 pub use runway::RunwaySpec;
 pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;

@@ -101,7 +101,8 @@ pub fn parse(text: &str, file_name: &str, sets: &[String]) -> Result<Plan, PlanE
         fill_fov(&mut tree);
     }
     tree.sort_sections();
-    let plan = Plan::new(file.name.unwrap_or_default(), file.seed.unwrap_or(DEFAULT_SEED), tree, sweep);
+    let mut plan = Plan::new(file.name.unwrap_or_default(), file.seed.unwrap_or(DEFAULT_SEED), tree, sweep);
+    plan.lay_out(&mut problems);
     plan.check_quickly(&mut problems);
     problems.into_result()?;
     Ok(plan)

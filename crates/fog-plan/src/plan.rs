@@ -1,17 +1,22 @@
 //! The plan: frames by index, made when asked for.
 
+use std::sync::Arc;
+
 use crate::{
     axis::Axis,
     diff::flatten,
     error::{PlanError, Problem},
     frame::FrameSpec,
     identity::{Identity, hash},
+    layout::{Layout, camera_names, override_sensor, place},
     node::{Node, Value},
     origin::Source,
+    path::{CsvFiles, Path},
     presets,
     set::set,
     sweep::Sweep,
     validate,
+    words::short_number,
 };
 
 /// Values that an axis summary lists at most.
@@ -27,9 +32,16 @@ pub struct Plan {
     /// The whole configuration with defaults.
     pub(crate) resolved: Node,
     /// The same without `sweep`: what axes override.
-    base: Node,
+    pub(crate) base: Node,
     pub(crate) sweep: Option<Sweep>,
+    /// The path, if no axis changes it; it is then left out of `base`.
+    pub(crate) path: Option<Arc<Path>>,
+    pub(crate) files: CsvFiles,
+    pub(crate) layout: Layout,
 }
+
+/// Axes' values by dotted path.
+type Written = Vec<(String, serde_json::Value)>;
 
 /// An axis, for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,7 +59,8 @@ impl Plan {
     pub(crate) fn new(name: String, seed: u64, resolved: Node, sweep: Option<Sweep>) -> Self {
         let mut base = resolved.clone();
         crate::set::remove(&mut base, &["sweep".to_owned()]);
-        Self { name, seed, resolved, base, sweep }
+        let (files, layout) = (CsvFiles::default(), Layout::Even(1));
+        Self { name, seed, resolved, base, sweep, path: None, files, layout }
     }
 
     /// Name of the configuration: `[A-Za-z0-9._-]+`.
@@ -65,6 +78,11 @@ impl Plan {
     /// Number of frames, at least 1.
     #[must_use]
     pub fn len(&self) -> usize {
+        self.layout.len(self.combinations())
+    }
+
+    /// Number of combinations of axis values.
+    pub(crate) fn combinations(&self) -> usize {
         self.sweep.as_ref().map_or(1, |sweep| sweep.len)
     }
 
@@ -74,7 +92,7 @@ impl Plan {
         self.len() == 0
     }
 
-    /// The axes in the order written; none without a sweep.
+    /// The axes in the order written, then the poses of the path and the cameras of the rig.
     #[must_use]
     pub fn axes(&self) -> Vec<AxisSummary> {
         let summary = |axis: &Axis| AxisSummary {
@@ -82,7 +100,22 @@ impl Plan {
             len: axis.values.len(),
             values: axis.values.short(SUMMARY_VALUES),
         };
-        self.sweep.iter().flat_map(|sweep| &sweep.axes).map(summary).collect()
+        let axes = self.sweep.iter().flat_map(|sweep| &sweep.axes).map(summary);
+        axes.chain(self.path_summary()).chain(self.rig_summary()).collect()
+    }
+
+    fn path_summary(&self) -> Option<AxisSummary> {
+        let path = self.path.as_ref()?;
+        let first = path.poses.iter().take(SUMMARY_VALUES).enumerate();
+        let values = first
+            .map(|(i, p)| if path.moves { format!("{} s", short_number(p.time_s)) } else { i.to_string() });
+        Some(AxisSummary { path: "path".into(), len: Some(path.poses.len()), values: values.collect() })
+    }
+
+    fn rig_summary(&self) -> Option<AxisSummary> {
+        let names = camera_names(&self.base);
+        let values = names.iter().take(SUMMARY_VALUES).cloned().collect();
+        (!names.is_empty()).then(|| AxisSummary { path: "cameras".into(), len: Some(names.len()), values })
     }
 
     /// How the axes combine: `grid`, `zip`, `random` or `sobol`; none without a sweep.
@@ -107,30 +140,58 @@ impl Plan {
             let message = format!("there is no frame {index}; the plan has {}", self.len());
             return Err(PlanError::Invalid(vec![Problem::new(&self.base.origin, "", message)]));
         }
-        let axes = self.sweep.as_ref().map_or(&[][..], |sweep| &sweep.axes);
-        let values = self.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.values(index, self.seed));
-        // The document with the axes' values in their places.
-        let mut tree = self.base.clone();
-        let mut written = Vec::new();
-        for (axis, value) in axes.iter().zip(&values) {
-            for (path, part) in axis.parts(value) {
-                if let Err(message) = set(&mut tree, path, &axis.key_origin, part.clone()) {
-                    let problem = Problem::new(&part.origin, path, message);
-                    return Err(PlanError::Invalid(vec![self.name_axis(problem)]));
-                }
-                written.push((path.to_owned(), part.to_json()));
-            }
+        let (combination, within) = self.layout.locate(index);
+        let (mut tree, mut written) =
+            self.tree(combination).map_err(|problem| PlanError::Invalid(vec![problem]))?;
+        let names = camera_names(&tree);
+        let place = place(within, &names, self);
+        let mut own = Vec::new();
+        if let Some(camera) = place.camera {
+            own = override_sensor(&mut tree, camera).map_err(|problem| PlanError::Invalid(vec![problem]))?;
         }
         presets::expand(&mut tree);
-        let content = validate::content(&tree).map_err(|problems| {
-            PlanError::Invalid(problems.into_iter().map(|problem| self.name_axis(problem)).collect())
-        })?;
-        let identity = Identity::of(&content);
-        let words: Vec<String> = match values.is_empty() {
-            true => vec![self.name.clone()],
-            false => values.iter().map(Node::short).collect(),
+        // What is wrong with keys of one camera is told of that camera.
+        let of_camera = |mut problem: Problem| {
+            let key = problem.path.strip_prefix("sensor.").and_then(|rest| rest.split('.').next());
+            if let (Some(key), Some(camera)) = (key, place.camera)
+                && own.iter().any(|k| k == key)
+            {
+                problem.path = format!("cameras.{camera}.{}", problem.path);
+            }
+            if problem.path == "path" {
+                // Frames may not carry it.
+                problem.origin = self.resolved.origin_of("path").clone();
+            }
+            self.name_axis(problem)
         };
-        let validate::Content { scene, fog, camera, sensor, lighting, render, outputs, runway } = content;
+        let content = validate::content(&tree, &place)
+            .map_err(|problems| PlanError::Invalid(problems.into_iter().map(of_camera).collect()))?;
+        let identity = Identity::of(&content);
+        let mut words: Vec<String> = self.values(combination).iter().map(Node::short).collect();
+        if words.is_empty() {
+            words.push(self.name.clone());
+        }
+        if let Some(path) = &content.path {
+            words.push(format!("{:04}", path.index));
+            written.push(("path.index".to_owned(), path.index.into()));
+        }
+        if let Some(camera) = place.camera {
+            words.push(camera.to_owned());
+            written.push(("rig.camera".to_owned(), camera.into()));
+        }
+        let validate::Content {
+            scene,
+            fog,
+            camera,
+            rig,
+            path,
+            readout_end,
+            sensor,
+            lighting,
+            render,
+            outputs,
+            runway,
+        } = content;
         Ok(FrameSpec {
             id: identity.id(&words),
             index,
@@ -141,12 +202,36 @@ impl Plan {
             scene,
             fog,
             camera,
+            rig,
+            path,
+            readout_end,
             sensor,
             lighting,
             render,
             outputs,
             runway,
         })
+    }
+
+    /// Values of the axes in a combination.
+    fn values(&self, combination: usize) -> Vec<Node> {
+        self.sweep.as_ref().map_or_else(Vec::new, |sweep| sweep.values(combination, self.seed))
+    }
+
+    /// The document with the axes' values of a combination in their places, and these values.
+    pub(crate) fn tree(&self, combination: usize) -> Result<(Node, Written), Problem> {
+        let axes = self.sweep.as_ref().map_or(&[][..], |sweep| &sweep.axes);
+        let mut tree = self.base.clone();
+        let mut written = Vec::new();
+        for (axis, value) in axes.iter().zip(&self.values(combination)) {
+            for (path, part) in axis.parts(value) {
+                if let Err(message) = set(&mut tree, path, &axis.key_origin, part.clone()) {
+                    return Err(self.name_axis(Problem::new(&part.origin, path, message)));
+                }
+                written.push((path.to_owned(), part.to_json()));
+            }
+        }
+        Ok((tree, written))
     }
 
     /// All frames in order.
@@ -210,9 +295,9 @@ impl Plan {
 impl Node {
     /// Top-level keys in the order of the schema.
     pub(crate) fn sort_sections(&mut self) {
-        const ORDER: [&str; 12] = [
-            "version", "name", "seed", "scene", "fog", "camera", "sensor", "lighting", "render", "outputs",
-            "runway", "sweep",
+        const ORDER: [&str; 14] = [
+            "version", "name", "seed", "scene", "fog", "camera", "path", "cameras", "sensor", "lighting",
+            "render", "outputs", "runway", "sweep",
         ];
         if let Value::Map(entries) = &mut self.value {
             entries.sort_by_key(|entry| ORDER.iter().position(|key| *key == entry.key));

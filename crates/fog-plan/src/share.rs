@@ -29,6 +29,7 @@ impl FrameSpec {
         let fog = (!any_fog).then_some(&self.fog);
         let (scene, camera, sensor) = (&self.scene, &self.camera, &self.sensor);
         let (render, outputs) = (&self.render, &self.outputs);
-        Some(canonical(&json!([scene, camera, sensor, lighting, render, outputs, fog])))
+        let motion = (&self.rig, &self.path, &self.readout_end);
+        Some(canonical(&json!([scene, camera, motion, sensor, lighting, render, outputs, fog])))
     }
 }

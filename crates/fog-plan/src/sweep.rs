@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// More frames than this are refused: a typing error rather than a plan.
-const MAX_FRAMES: usize = 100_000_000;
+pub(crate) const MAX_FRAMES: usize = 100_000_000;
 
 /// Points of the Sobol sequence that sobol_burley offers per seed.
 const SOBOL_POINTS: usize = 1 << 16;

@@ -1,5 +1,8 @@
 //! Plans: order, values, identity, and the resolved configuration.
 
+#[path = "plans/cameras.rs"]
+mod cameras;
+
 use std::path::Path;
 
 use fog_plan::{Coefficient, FogModel, FrameSpec, MeanCosine, Output, Phase, Plan, Sampling, SceneSource};

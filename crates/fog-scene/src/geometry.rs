@@ -6,6 +6,7 @@ use crate::material::Opacity;
 use crate::triangle::{SurfacePoint, Triangle};
 use fog_core::random::mix64;
 use glam::Vec3A;
+use std::cell::Cell;
 
 /// The triangles of a scene with their hierarchy: immutable, shared by all threads.
 #[derive(Clone, Debug, Default)]
@@ -91,6 +92,21 @@ impl Geometry {
         self.bvh.any(origin, direction, t_max, |triangle, u, v| self.stops(triangle, u, v, direction, key))
     }
 
+    /// Share of light in [0, 1] that passes all surfaces at 0 < t < `t_max`: the probability that
+    /// [`Geometry::occluded_by_chance`] is false.
+    #[must_use]
+    pub fn clear_share(&self, origin: Vec3A, direction: Vec3A, t_max: f32) -> f32 {
+        if !self.partial {
+            return if self.occluded(origin, direction, t_max) { 0.0 } else { 1.0 };
+        }
+        let share = Cell::new(1.0f32);
+        let blocked = self.bvh.any(origin, direction, t_max, |triangle, u, v| {
+            share.set(share.get() * (1.0 - self.stop_probability(triangle, u, v, direction)));
+            share.get() <= 0.0
+        });
+        if blocked { 0.0 } else { share.get() }
+    }
+
     /// The surface at a hit of this geometry.
     ///
     /// # Panics
@@ -144,11 +160,15 @@ impl Geometry {
 
     /// True if the triangle stops the ray of `key`.
     fn stops(&self, triangle: u32, u: f32, v: f32, direction: Vec3A, key: u64) -> bool {
-        let Some(opacity) = self.opacity(triangle) else { return true };
+        let number = (mix64(key ^ mix64(u64::from(triangle) + 1)) >> 40) as f32 * (1.0 / 16_777_216.0);
+        number < self.stop_probability(triangle, u, v, direction)
+    }
+
+    /// Probability that the triangle stops a ray there.
+    fn stop_probability(&self, triangle: u32, u: f32, v: f32, direction: Vec3A) -> f32 {
+        let Some(opacity) = self.opacity(triangle) else { return 1.0 };
         let here = &self.triangles[triangle as usize];
         let cos = || here.surface(u, v).shading_normal.dot(direction.normalize()).abs();
-        let probability = opacity.stop_probability(&here.uv_at(u, v), self.color_at(triangle, u, v), cos);
-        let number = (mix64(key ^ mix64(u64::from(triangle) + 1)) >> 40) as f32 * (1.0 / 16_777_216.0);
-        number < probability
+        opacity.stop_probability(&here.uv_at(u, v), self.color_at(triangle, u, v), cos)
     }
 }

@@ -46,7 +46,7 @@ pub struct Bound {
 }
 
 /// A cone of directions.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// Its axis, a unit vector.
     pub axis: Vec3A,
@@ -364,7 +364,7 @@ fn split(bounds: &[Bound], order: &mut [u32], whole: &Bound, by_cost: bool) -> u
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lamp::{Cone, Lamp};
+    use crate::lamp::{Cone, Lamp, Pattern};
     use fog_core::random::PathRng;
     use fog_core::warp;
 
@@ -378,7 +378,8 @@ mod tests {
                     let cos_outer = 0.95 * rng.uniform();
                     Cone { axis: warp::uniform_sphere(rng.uniform2()), cos_inner: 0.97, cos_outer }
                 });
-                Lamp { position, intensity: [0.1 + 100.0 * rng.uniform().powi(4); 3], cone }
+                let lamp = Lamp::even(position, [0.1 + 100.0 * rng.uniform().powi(4); 3]);
+                Lamp { pattern: cone.map_or(Pattern::Even, Pattern::Cone), ..lamp }
             })
             .collect()
     }
@@ -423,7 +424,7 @@ mod tests {
     #[test]
     fn near_and_strong_lamps_are_preferred() {
         // With all lamps equal and all around, the tree should come near to intensity over squared distance.
-        let at = |x: f32, strength| Lamp { position: Vec3A::X * x, intensity: [strength; 3], cone: None };
+        let at = |x: f32, strength| Lamp::even(Vec3A::X * x, [strength; 3]);
         let tree = LightTree::new((0..100).map(|i| at(10.0 * i as f32, 1.0)));
         let here = Receiver::Point(Vec3A::new(500.0, 3.0, 0.0));
         // Even odds would be 0.01.

@@ -194,7 +194,7 @@ impl Scene {
         };
         let lamps = lights.lamps.iter().enumerate().map(|(i, lamp)| {
             let group = group(|g| &g.lamps, i);
-            (Lamp { intensity: lamp.intensity.map(|c| c * scale(group)), ..*lamp }, group)
+            (Lamp { intensity: lamp.intensity.map(|c| c * scale(group)), ..lamp.clone() }, group)
         });
         let (lamps, lamp_groups): (Vec<_>, _) = lamps.filter(|(lamp, _)| lamp.strength() > 0.0).unzip();
         let beams = lights.beams.iter().enumerate().map(|(i, beam)| {
@@ -272,6 +272,12 @@ impl Scene {
     #[must_use]
     pub fn occluded(&self, origin: Vec3A, direction: Vec3A, t_max: f32, key: u64) -> bool {
         self.loaded.geometry.occluded_by_chance(origin, direction, t_max, key)
+    }
+
+    /// Share of light that comes straight through all surfaces before `t_max`: what [`Scene::occluded`] lets pass in the mean.
+    #[must_use]
+    pub fn clear_share(&self, origin: Vec3A, direction: Vec3A, t_max: f32) -> f32 {
+        self.loaded.geometry.clear_share(origin, direction, t_max)
     }
 
     /// Shading data of a hit seen along `direction`, at the wavelengths whose colour basis is `basis`.

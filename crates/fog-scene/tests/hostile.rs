@@ -6,6 +6,7 @@ use common::{TRIANGLE, attribute, data, document, floats, glb, load_bytes, refus
 use fog_core::Vec3A;
 use fog_core::random::PathRng;
 use fog_core::spectrum::Spectrum;
+use fog_scene::lamp::{Lamp, Pattern};
 use fog_scene::scene::Scene;
 use fog_scene::{Limits, LoadedScene, SceneErrorKind, load};
 use serde_json::{Value, json};
@@ -234,14 +235,14 @@ fn lights_are_placed_by_their_nodes() {
         {"extensions": {"KHR_lights_punctual": {"light": 2}}}]);
     root["scenes"] = json!([{"nodes": [0, 2, 3]}]);
     let scene = load_bytes("scene.glb", &glb(&root, &bin)).unwrap();
-    let [spot, point] = scene.lights.lamps[..] else { panic!("{:?}", scene.lights) };
-    let cone = spot.cone.unwrap();
+    let [spot, point] = &scene.lights.lamps[..] else { panic!("{:?}", scene.lights) };
+    let Pattern::Cone(cone) = &spot.pattern else { panic!("{spot:?}") };
     // A quarter turn about X takes −Z to −Y; the parent's scale stretches the way there and nothing else.
     assert!((spot.position - Vec3A::new(1.0, 12.0, 3.0)).length() < 1e-5);
     assert!((cone.axis - Vec3A::NEG_Y).length() < 1e-6);
     assert_eq!(spot.intensity, [40.0, 20.0, 10.0]);
     assert!((cone.cos_inner - 0.968_912_4).abs() < 1e-6 && (cone.cos_outer - 0.731_688_9).abs() < 1e-6);
-    assert_eq!((point.position, point.intensity, point.cone), (Vec3A::ZERO, [1.0; 3], None));
+    assert_eq!(*point, Lamp::even(Vec3A::ZERO, [1.0; 3]));
     let [beam] = scene.lights.beams[..] else { panic!("{:?}", scene.lights) };
     assert!((beam.direction - Vec3A::Y).length() < 1e-6 && beam.illuminance == [3.0; 3]);
     assert!(scene.warnings.iter().any(|w| w.contains("its range")), "{:?}", scene.warnings);

@@ -15,6 +15,7 @@ pub mod render;
 pub mod render_shared;
 pub mod replay;
 mod rounds;
+pub mod seen_lamps;
 pub mod settings;
 mod shared;
 pub mod truth;

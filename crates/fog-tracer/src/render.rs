@@ -3,6 +3,7 @@
 use crate::groups::GroupLight;
 use crate::path::{PathRadiance, PathTracer};
 use crate::rounds::{Round, next_round};
+use crate::seen_lamps::seen_lamps;
 use crate::settings::Settings;
 use crate::truth::truth;
 use fog_core::colour::{Observer, Rgb};
@@ -56,7 +57,8 @@ pub fn render(
     let [films] = films;
     let truth = truth(scene, camera, settings.wavelength_nm);
     let frame = Frame::from_pixels(camera.width, camera.height, channels(settings), &films.pixels, truth)?;
-    frame.with_groups(groups, &films).map(Some)
+    let lamps = seen_lamps(scene, camera, observer, settings.wavelength_nm);
+    frame.with_groups(groups, &films)?.with_points(&lamps).map(Some)
 }
 
 /// What the channels of the frames mean.

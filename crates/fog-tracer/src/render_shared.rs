@@ -3,6 +3,7 @@
 use crate::groups::GroupLight;
 use crate::path::PathTracer;
 use crate::render::{Work, channels, fill, film_value, group_names};
+use crate::seen_lamps::seen_lamps;
 use crate::settings::Settings;
 use crate::shared::SharedTracer;
 use crate::truth::truth;
@@ -52,6 +53,14 @@ pub fn render_shared(
     let mut films = vec![Films::new(count, names.len()); variants.len()];
     let pixel = |i, samples, films: &mut [Films], k| pass.pixel(i, samples, films, k);
     fill(&mut films, camera.width as usize, settings, &pixel, progress)?;
+    let lamps = |scene: &Scene, variant: &Variant| {
+        let mut lamps = seen_lamps(scene, camera, observer, settings.wavelength_nm);
+        for light in &mut lamps {
+            let factor = variant.factors.get(light.group).copied().unwrap_or(1.0);
+            light.radiance = light.radiance.map(|c| c * factor);
+        }
+        lamps
+    };
     let frame = |(variant, films): (&Variant, &Films)| {
         let mut scene = scene.clone();
         if let Some(medium) = media.get(variant.fog) {
@@ -60,7 +69,8 @@ pub fn render_shared(
         let truth = truth(&scene, camera, settings.wavelength_nm);
         let (width, height) = (camera.width, camera.height);
         Frame::from_pixels(width, height, channels(settings), &films.pixels, truth)?
-            .with_groups(names.clone(), films)
+            .with_groups(names.clone(), films)?
+            .with_points(&lamps(&scene, variant))
     };
     Some(variants.iter().zip(&films).map(frame).collect())
 }

@@ -2,7 +2,9 @@
 
 use crate::path::PathTracer;
 use crate::render::{Sample, finish};
+use crate::seen_lamps::seen_lamps;
 use crate::watch::Step;
+use fog_core::colour::Rgb;
 use fog_core::spectrum::{LANES, Spectrum, Wavelengths};
 use fog_scene::camera::{Camera, Ray};
 
@@ -23,6 +25,9 @@ pub struct Replay {
     pub response: Option<[[f32; 3]; LANES]>,
     /// What the film gets.
     pub sample: Sample,
+    /// Light of lamps that stand in the pixel, which no path finds: the frame has it besides the mean of its paths, in its
+    /// direct light.
+    pub lamps: Rgb,
 }
 
 impl PathTracer<'_> {
@@ -42,6 +47,17 @@ impl PathTracer<'_> {
             radiance: seen.radiance + seen.glow,
             response,
             sample: finish(response.as_ref(), seen),
+            lamps: self.lamps_in(camera, i),
         })
+    }
+
+    /// Light of lamps that stand in pixel `i`.
+    fn lamps_in(&self, camera: &Camera, i: usize) -> Rgb {
+        let lamps = seen_lamps(self.scene, camera, self.observer, self.settings.wavelength_nm);
+        let mut sum = [0.0; 3];
+        for light in lamps.iter().filter(|light| light.pixel == i) {
+            (0..3).for_each(|c| sum[c] += light.radiance[c]);
+        }
+        sum
     }
 }

@@ -46,7 +46,8 @@ pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Trut
 
 fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row {
     let (x, y) = (i % camera.width as usize, i / camera.width as usize);
-    let Some(ray) = camera.ray(x as f64 + 0.5, y as f64 + 0.5) else { return UNSEEN };
+    let [x, y] = [x, y].map(|v| v as f64 + 0.5);
+    let Some(ray) = camera.ray(x, y) else { return UNSEEN };
     let hit = scene.intersect(ray.origin, ray.direction, f32::INFINITY);
     let distance = hit.map_or(f32::INFINITY, |h| h.t);
     let [r, g, b] = bands;
@@ -54,7 +55,7 @@ fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row
         medium.optical_depths_at(ray.origin, ray.direction, f64::from(distance), [r, g, b, TAU_NM])
     });
     Row {
-        depth: camera.depth(&ray, distance),
+        depth: camera.depth(x, y, distance),
         distance,
         transmittance: [0, 1, 2].map(|i| math::f64::exp(-depths[i]) as f32),
         tau: depths[3] as f32,

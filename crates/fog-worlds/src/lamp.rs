@@ -1,6 +1,5 @@
-//! Lamps: lights of `KHR_lights_punctual`, and how bright the lens is that a camera sees in their place.
+//! Lamps: lights of `KHR_lights_punctual`, with the distribution of their intensity and the size of their lens in `extras`.
 
-use fog_core::math;
 use serde_json::{Value, json};
 
 /// A lamp.
@@ -9,36 +8,50 @@ pub(crate) struct Lamp {
     pub(crate) name: String,
     /// Colour in linear sRGB, its luminance 1 if possible: see [`colour`].
     pub(crate) color: [f32; 3],
-    /// Luminous intensity on the axis in cd.
+    /// Luminous intensity in cd: of a cone on its axis, of a table as its source states it.
     pub(crate) candela: f32,
-    /// Half-angles in degrees inside of which the intensity is whole and outside of which it is 0; `None`: all around.
+    /// Half-angles in degrees inside of which the intensity is whole and outside of which it is 0, for a table what comes near it
+    /// for programs that read none; `None`: all around.
     pub(crate) cone_deg: Option<[f32; 2]>,
+    pub(crate) table: Option<Table>,
+    /// Radius in metres of the disc that its lens is.
+    pub(crate) radius_m: f32,
     /// Where its intensity and beam come from.
     pub(crate) source: &'static str,
 }
 
-/// Share of a lamp's flux that its visible lens emits, besides the lamp.
-const LENS_SHARE: f32 = 0.1;
+/// Intensities of a beam along −Z of its node in cd, by elevation and azimuth.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Table {
+    up_deg: Vec<f32>,
+    aside_deg: Vec<f32>,
+    /// Elevation by elevation of the first azimuth, then of the next.
+    candela: Vec<f32>,
+}
+
+impl Table {
+    /// `candela(aside, up)` at elevations in degrees and at azimuths from 0 or −180 to 180, to the left positive as seen from
+    /// behind the lamp; azimuths from 0 on are alike on both sides.
+    pub(crate) fn new(up_deg: Vec<f32>, aside_deg: Vec<f32>, candela: impl Fn(f32, f32) -> f32) -> Self {
+        let values = aside_deg.iter().flat_map(|&a| up_deg.iter().map(move |&u| (a, u)));
+        // A thousandth of a candela is enough, and short.
+        let candela = values.map(|(a, u)| (1e3 * candela(a, u)).round() * 1e-3).collect();
+        Self { up_deg, aside_deg, candela }
+    }
+
+    /// `extras.photometry` of a light.
+    fn json(&self) -> Value {
+        let short = |x: f32| (f64::from(x) * 1e4).round() * 1e-4;
+        let numbers = |list: &[f32]| list.iter().map(|&x| short(x)).collect::<Vec<f64>>();
+        let up: Vec<f32> = self.up_deg.iter().map(|u| 90.0 + u).collect();
+        json!({
+            "pole": "down", "vertical_deg": numbers(&up), "horizontal_deg": numbers(&self.aside_deg),
+            "candela": numbers(&self.candela),
+        })
+    }
+}
 
 impl Lamp {
-    /// Luminance in cd/m² of a flat lens of this area in m² that emits a tenth of the lamp's flux, alike in all directions
-    /// of its front.
-    ///
-    /// A point light cannot be seen and glTF has no surface that emits into a beam: the lens shows where the lamp is and is
-    /// dimmer than the beam by this share, so that it hardly adds to the light in the fog.
-    pub(crate) fn lens_luminance(&self, area_m2: f32) -> f32 {
-        LENS_SHARE * self.flux_lm() / (core::f32::consts::PI * area_m2)
-    }
-
-    /// Luminous flux in lm: the intensity integrated over glTF's falloff, the square of a ramp of the cosine.
-    pub(crate) fn flux_lm(&self) -> f32 {
-        let tau = core::f32::consts::TAU;
-        let Some([inner, outer]) = self.cone_deg else { return 2.0 * tau * self.candela };
-        let cos = |deg: f32| math::f32::cos(deg.to_radians());
-        let (ci, co) = (cos(inner), cos(outer));
-        tau * self.candela * ((1.0 - ci) + (ci - co) / 3.0)
-    }
-
     /// glTF's light.
     pub(crate) fn json(&self) -> Value {
         let strongest = self.color.iter().fold(0.0f32, |a, &b| a.max(b));
@@ -47,8 +60,11 @@ impl Lamp {
         let mut light = json!({
             "name": self.name, "color": color, "intensity": self.candela * strongest,
             "type": if self.cone_deg.is_some() { "spot" } else { "point" },
-            "extras": {"candela": self.candela, "source": self.source},
+            "extras": {"candela": self.candela, "radius_m": self.radius_m, "source": self.source},
         });
+        if let Some(table) = &self.table {
+            light["extras"]["photometry"] = table.json();
+        }
         if let Some([inner, outer]) = self.cone_deg {
             light["spot"] =
                 json!({"innerConeAngle": inner.to_radians(), "outerConeAngle": outer.to_radians()});

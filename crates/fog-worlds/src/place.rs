@@ -29,14 +29,14 @@ impl Place {
         Self { rotation: [0.0, s, 0.0, c], ..self }
     }
 
-    /// Turned so that −Z, the axis of a spot light, points along `direction`.
+    /// Turned so that −Z, the axis of a spot light, points along `direction`, without roll: +X stays level.
     pub(crate) fn aimed(self, direction: Vec3) -> Self {
-        // The shortest rotation from −Z to d: (−Z × d, 1 − Z·d), normalised; about Y where d is +Z.
-        let d = direction.normalize_or(Vec3::NEG_Z);
-        let w = 1.0 - d.z;
-        let q = if w < 1e-6 { [0.0, 1.0, 0.0, 0.0] } else { [d.y, -d.x, 0.0, w] };
-        let length = q.iter().map(|c| c * c).sum::<f32>().sqrt();
-        Self { rotation: q.map(|c| c / length), ..self }
+        let d = direction.normalize_or(Vec3::NEG_Z).as_dvec3();
+        let half = |angle: f64| (math::f64::sin(0.5 * angle) as f32, math::f64::cos(0.5 * angle) as f32);
+        // A turn to the heading, and before it one about +X to the elevation.
+        let (sy, cy) = half(-math::f64::atan2(d.x, -d.z));
+        let (sx, cx) = half(math::f64::atan2(d.y, (d.x * d.x + d.z * d.z).sqrt()));
+        Self { rotation: [cy * sx, sy * cx, -sy * sx, cy * cx], ..self }
     }
 
     /// The world's point that is `local` of this place.
@@ -86,7 +86,9 @@ mod tests {
         let near = |a: Vec3, b: Vec3| assert!((a - b).length() < 1e-5, "{a} {b}");
         near(Place::at(1.0, 2.0, 3.0).facing(90.0).point(Vec3::NEG_Z), Vec3::new(2.0, 2.0, 3.0));
         for d in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.3, -0.8, 0.2)] {
-            near(Place::at(0.0, 0.0, 0.0).aimed(d).point(Vec3::NEG_Z), d.normalize());
+            let place = Place::at(0.0, 0.0, 0.0).aimed(d);
+            near(place.point(Vec3::NEG_Z), d.normalize());
+            assert!(place.point(Vec3::X).y.abs() < 1e-5 && place.point(Vec3::Y).y > -1e-5, "{d} rolls");
         }
         near(turn_x(90.0).transform_vector3(Vec3::Y), Vec3::Z);
         near(turn_y(90.0).transform_vector3(Vec3::Z), Vec3::X);

@@ -1,25 +1,32 @@
 //! What records and EXR files say about a frame's camera.
 
+use crate::frame::pose;
+use fog_core::Mat4;
 use fog_core::lens::{Intrinsics, Lens};
 use fog_dataset::Attribute;
+use fog_plan::{FrameSpec, PoseSpec};
 use fog_scene::camera::{Camera, Pose};
 use serde_json::{Value, json};
 
 /// 4×4 camera→world, row by row.
-pub(crate) fn pose_json(pose: &Pose) -> Value {
-    let m = pose.world_from_camera();
+fn pose_json(pose: &Pose) -> Value {
+    matrix_json(&pose.world_from_camera())
+}
+
+/// Row by row.
+fn matrix_json(m: &Mat4) -> Value {
     json!((0..4).map(|r| m.row(r).to_array()).collect::<Vec<_>>())
 }
 
 /// Its rotation as a quaternion w, x, y, z.
-pub(crate) fn quaternion_json(pose: &Pose) -> Value {
+fn quaternion_json(pose: &Pose) -> Value {
     let q = fog_core::Quat::from_mat4(&pose.world_from_camera());
     json!([q.w, q.x, q.y, q.z])
 }
 
 /// Focal lengths, principal point and distortion, in OpenCV's convention; what the columns and rows of an equirectangular
 /// image are.
-pub(crate) fn intrinsics_json(lens: &Lens) -> Value {
+fn intrinsics_json(lens: &Lens) -> Value {
     let Some(Intrinsics { fx_px, fy_px, cx_px, cy_px }) = lens.intrinsics() else {
         return panorama_json(lens);
     };
@@ -74,6 +81,31 @@ pub(crate) fn depth_convention(lens: &Lens) -> &'static str {
              the lens shows nothing and the picture is black"
         }
         Lens::Equirectangular(_) => "distance, for there is no camera axis, m; +inf for sky",
+    }
+}
+
+/// Adds what the camera is to a record.
+pub(crate) fn write(spec: &FrameSpec, camera: &Camera, record: &mut Value) {
+    let own = &mut record["camera"];
+    own["world_from_camera"] = pose_json(&camera.pose);
+    own["quaternion_wxyz"] = quaternion_json(&camera.pose);
+    own["axes"] = json!("OpenCV: x right, y down, z forward; world +Y up, metres");
+    record["sensor"]["intrinsics"] = intrinsics_json(&camera.lens);
+    if let Some(rig) = &spec.rig {
+        let pose = |p: &PoseSpec| pose(p.position_m, [p.heading_deg, p.pitch_deg, p.roll_deg]);
+        let world_from_rig = pose(&rig.pose).world_from_camera();
+        let rig_from_camera = world_from_rig.inverse() * camera.pose.world_from_camera();
+        record["rig"]["world_from_rig"] = matrix_json(&world_from_rig);
+        record["rig"]["rig_from_camera"] = matrix_json(&rig_from_camera);
+        record["rig"]["axes"] = json!("of the rig as of its cameras: x right, y down, z forward");
+    }
+    if let Some(end) = &spec.readout_end {
+        let end = pose(end.position_m, [end.heading_deg, end.pitch_deg, end.roll_deg]);
+        record["readout_end"]["world_from_camera"] = pose_json(&end);
+        record["readout_end"]["definition"] = json!(
+            "pose when the lower edge of the image is exposed; `camera` is that of the upper edge. Row y of height h, its \
+             centre at y + 0.5, has gone (y + 0.5) / h of the way and of the turn. The scene stands still"
+        );
     }
 }
 

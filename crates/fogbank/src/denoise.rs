@@ -1,7 +1,7 @@
 //! The denoised picture of a frame: a guess, beside the radiance that it was guessed from.
 
 use crate::error::Error;
-use fog_core::colour::Rgb;
+use fog_core::colour::{Observer, Rgb};
 use fog_dataset::DenoisedPicture;
 use fog_denoise::{Denoiser, Images};
 use fog_film::{Channels, Frame};
@@ -9,6 +9,7 @@ use fog_plan::{FrameSpec, Output};
 use fog_scene::camera::Camera;
 use fog_scene::scene::Scene;
 use fog_tracer::features::features;
+use fog_tracer::seen_lamps::seen_lamps;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -33,10 +34,15 @@ pub(crate) fn denoised(
     scene: &Scene,
     camera: &Camera,
     frame: &Frame,
-    denoiser: &Denoiser,
+    (denoiser, observer): (&Denoiser, &Observer),
 ) -> Result<DenoisedPicture, Error> {
     let guides = features(scene, camera);
-    let radiance: Vec<Rgb> = (0..frame.pixel_count()).map(|i| shown(frame, i)).collect();
+    let mut radiance: Vec<Rgb> = (0..frame.pixel_count()).map(|i| shown(frame, i)).collect();
+    // Lamps have no noise, and single bright pixels are what a denoiser takes for it.
+    let lamps = lamps(scene, camera, frame, observer);
+    for (pixel, light) in &lamps {
+        (0..3).for_each(|c| radiance[*pixel][c] = (radiance[*pixel][c] - light[c]).max(0.0));
+    }
     let images = Images {
         width: frame.width,
         height: frame.height,
@@ -44,8 +50,11 @@ pub(crate) fn denoised(
         albedo: &guides.albedo,
         normal: &guides.normal,
     };
-    let rgb =
+    let mut rgb =
         denoiser.denoise(&images, rayon::current_num_threads()).map_err(|e| Error::Denoise(e.to_string()))?;
+    for (pixel, light) in &lamps {
+        (0..3).for_each(|c| rgb[*pixel][c] += light[c]);
+    }
     let details = json!({
         "is": "an estimate of the noise-free radiance by a neural network; no measurement",
         "library": "Open Image Denoise",
@@ -56,6 +65,17 @@ pub(crate) fn denoised(
         "reproducible": "with the same library on the same kind of processor, for any number of threads",
     });
     Ok(DenoisedPicture { rgb, details })
+}
+
+/// Light of lamps in the frame's pixels, as a colour.
+fn lamps(scene: &Scene, camera: &Camera, frame: &Frame, observer: &Observer) -> Vec<(usize, Rgb)> {
+    let wavelength_nm = match frame.channels {
+        Channels::Rgb => None,
+        Channels::Mono { wavelength_nm } => Some(wavelength_nm),
+    };
+    let lamps = seen_lamps(scene, camera, observer, wavelength_nm);
+    let colour = |rgb: Rgb| if wavelength_nm.is_some() { [rgb[0]; 3] } else { rgb };
+    lamps.into_iter().map(|light| (light.pixel, colour(light.radiance))).collect()
 }
 
 /// Radiance of a pixel as a colour.

@@ -12,7 +12,7 @@ use fog_core::Vec3A;
 use fog_dataset::DenoisedPicture;
 use fog_film::Frame;
 use fog_plan::{CameraSpec, FrameSpec, SensorSpec, StopSpec};
-use fog_scene::camera::{Camera, Pose};
+use fog_scene::camera::{Camera, Pose, Shutter};
 use fog_scene::scene::Scene;
 use fog_tracer::render::Work;
 use fog_tracer::settings::{Settings, Stop};
@@ -34,10 +34,33 @@ pub struct Rendered {
 
 /// Camera of a frame.
 #[must_use]
-pub fn camera(camera: &CameraSpec, sensor: &SensorSpec) -> Camera {
-    let [x, y, z] = camera.position_m.map(|v| v as f32);
-    let pose = Pose::new(Vec3A::new(x, y, z), camera.heading_deg, camera.pitch_deg, camera.roll_deg);
-    Camera { pose, width: sensor.width_px, height: sensor.height_px, lens: sensor.projection }
+pub fn camera(spec: &FrameSpec) -> Camera {
+    camera_at(&spec.sensor, &spec.camera, spec.readout_end.as_ref())
+}
+
+/// The same camera at the next pose of its path, for what moves in the image; none where there is none.
+#[must_use]
+pub fn next_camera(spec: &FrameSpec) -> Option<Camera> {
+    let next = spec.path.as_ref()?.next?;
+    Some(camera_at(&spec.sensor, &next.camera, next.readout_end.as_ref()))
+}
+
+fn camera_at(sensor: &SensorSpec, camera: &CameraSpec, readout_end: Option<&CameraSpec>) -> Camera {
+    let at = |c: &CameraSpec| pose(c.position_m, [c.heading_deg, c.pitch_deg, c.roll_deg]);
+    let pose = at(camera);
+    Camera {
+        pose,
+        width: sensor.width_px,
+        height: sensor.height_px,
+        lens: sensor.projection,
+        shutter: readout_end.map(|end| Shutter::new(pose, at(end))),
+    }
+}
+
+/// A pose from world position and angles.
+pub(crate) fn pose(position_m: [f64; 3], [heading, pitch, roll]: [f64; 3]) -> Pose {
+    let [x, y, z] = position_m.map(|v| v as f32);
+    Pose::new(Vec3A::new(x, y, z), heading, pitch, roll)
 }
 
 /// What the tracer is asked for.
@@ -83,7 +106,7 @@ pub fn render_frame(
     let (scene, fog) = scene(spec, resources)?;
     // Before any work.
     resources.denoiser(spec)?;
-    let camera = camera(&spec.camera, &spec.sensor);
+    let camera = camera(spec);
     let settings = settings(spec);
     let frame =
         fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
@@ -102,7 +125,7 @@ pub(crate) fn finish(
     frame: Frame,
     config_digest: &str,
 ) -> Result<Rendered, Error> {
-    let camera = camera(&spec.camera, &spec.sensor);
+    let camera = camera(spec);
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     let exposure = exposure::factor(spec, &frame);
     exposure::write(spec, exposure, &mut record);
@@ -119,7 +142,8 @@ pub(crate) fn finish(
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
     let denoiser = resources.denoiser(spec)?;
-    let denoised =
-        denoiser.map(|denoiser| denoise::denoised(scene, &camera, &frame, denoiser)).transpose()?;
+    let denoised = denoiser
+        .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
+        .transpose()?;
     Ok(Rendered { frame, record, camera, exposure, denoised })
 }

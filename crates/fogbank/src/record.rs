@@ -1,7 +1,7 @@
 //! The metadata of a frame: everything that it depends on, and what its camera and fog were, with units in the keys.
 
 use crate::CODE_DIGEST;
-use crate::camera_record::{depth_convention, intrinsics_json, pose_json, quaternion_json};
+use crate::camera_record::{self, depth_convention};
 use crate::denoise;
 use crate::fog::Fog;
 use fog_film::{Channels, Frame};
@@ -41,10 +41,7 @@ pub(crate) fn record(
         state
     });
     value["fog_state"] = layer.unwrap_or(Value::Null);
-    value["camera"]["world_from_camera"] = pose_json(&camera.pose);
-    value["camera"]["quaternion_wxyz"] = quaternion_json(&camera.pose);
-    value["camera"]["axes"] = json!("OpenCV: x right, y down, z forward; world +Y up, metres");
-    value["sensor"]["intrinsics"] = intrinsics_json(&camera.lens);
+    camera_record::write(spec, camera, &mut value);
     value["sensor"]["encoding"] = json!("sRGB of exposure × linear radiance, clipped to [0, 1]");
     value["conventions"] = json!({
         "radiance": "relative to D65: a light of scalar radiance x is recorded as R = G = B = x",

@@ -62,7 +62,7 @@ pub fn replay(
     }
     resources.prepare(&spec, progress);
     let (scene, _) = scene(&spec, resources)?;
-    let camera = camera(&spec.camera, &spec.sensor);
+    let camera = camera(&spec);
     let tracer = PathTracer::new(&scene, &resources.observer, settings(&spec));
     let i = y as usize * width as usize + x as usize;
     let unseen = || Error::UnknownPath(format!("the lens sees nothing at pixel {x},{y}, sample {number}"));

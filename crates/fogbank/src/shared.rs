@@ -126,7 +126,7 @@ fn one_pass(
     };
     let variants: Vec<Variant> = pass.iter().map(variant).collect();
     let (scene, _) = frame::scene(&base, resources)?;
-    let camera = frame::camera(&base.camera, &base.sensor);
+    let camera = frame::camera(&base);
     let (settings, view) = (settings(&base), (&camera, &resources.observer));
     let frames = render_shared(&scene, &media, &variants, view, &settings, base.seed, progress);
     let ids: Vec<&str> = pass.iter().map(|&i| set[i].id.as_str()).collect();

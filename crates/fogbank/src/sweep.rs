@@ -27,6 +27,8 @@ pub struct SweepOptions {
     pub opening: Opening,
     /// Whether frames whose failure is on record are tried again.
     pub retry_failed: bool,
+    /// Whether the files of frames that are done are hashed, so that damaged frames are rendered again.
+    pub recheck: bool,
     /// Processes to work with; none: the current rayon pool of this one.
     pub workers: Option<Workers>,
 }
@@ -97,7 +99,13 @@ fn prepare(
     }
     let (mut done, mut failed) = (0, 0);
     for &i in &selected {
-        let state = data_set.state(&frames[i].id);
+        let id = &frames[i].id;
+        let mut state = data_set.state(id);
+        if options.recheck && state == FrameState::Done && !data_set.is_intact(id) {
+            progress.event(Event::Warning(format!("frame {id} is damaged and will be rendered again")));
+            data_set.forget(id)?;
+            state = FrameState::Missing;
+        }
         wanted[i] = state == FrameState::Missing || state == FrameState::Failed && options.retry_failed;
         done += usize::from(state == FrameState::Done);
         failed += usize::from(state == FrameState::Failed && !options.retry_failed);

@@ -51,6 +51,9 @@ pub(crate) struct SweepArgs {
     /// What becomes of a data set that is there already.
     #[arg(long, value_enum, default_value = "resume")]
     pub(crate) mode: ModeArg,
+    /// Hash the files of frames that are done and render damaged ones again.
+    #[arg(long)]
+    pub(crate) recheck: bool,
     /// Try frames again that have failed.
     #[arg(long)]
     pub(crate) retry_failed: bool,

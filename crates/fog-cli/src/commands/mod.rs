@@ -4,6 +4,7 @@ pub(crate) mod compare;
 pub(crate) mod figures;
 pub(crate) mod fit;
 mod fog_source;
+pub(crate) mod merge;
 pub(crate) mod mie;
 pub(crate) mod optics;
 pub(crate) mod plan;

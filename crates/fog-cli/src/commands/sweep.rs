@@ -35,6 +35,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
         },
         opening: args.mode.into(),
         retry_failed: args.retry_failed,
+        recheck: args.recheck,
         workers,
     };
     render(&plan, &options, &args.work)

@@ -1,9 +1,11 @@
 //! The program as its users run it: real command lines, real files.
 
 mod cache;
+mod chaos;
 mod commands;
 mod common;
 mod compare;
+mod configs;
 mod data_set;
 mod denoise;
 mod determinism;

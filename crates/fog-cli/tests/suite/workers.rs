@@ -45,6 +45,47 @@ fn parts_and_selections_add_up() {
 }
 
 #[test]
+fn folders_are_merged_and_proved_whole() {
+    let dir = folder(AXES);
+    let cache = cache();
+    sweep(dir.path(), "whole").ok();
+    for part in ["0/3", "1/3", "2/3"] {
+        run(&arguments(&part[..1], &cache, &["--shard", part]), dir.path()).ok();
+    }
+    let merge = |parts: &[&str]| run(&[&["merge", "--out", "all"], parts].concat(), dir.path());
+    let some = merge(&["0", "1"]);
+    assert_eq!(some.code, Some(1));
+    assert!(some.stdout.contains("all: 8 done, 0 failed, 4 missing"), "{}", some.stdout);
+    // A damaged file is noticed, and taken from where it is whole.
+    let frame = |name: &&String| name.ends_with(".hdr.exr");
+    let name = names(&dir.path().join("2")).iter().find(frame).unwrap().clone();
+    let path = dir.path().join("2").join(&name);
+    let mut bytes = fs::read(&path).unwrap();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    let some = merge(&["2"]);
+    assert_eq!(some.code, Some(1));
+    assert!(some.stdout.contains("11 done, 0 failed, 1 missing"), "{}", some.stdout);
+    assert!(some.stderr.contains(&format!("2/{name}: has another content")), "{}", some.stderr);
+    let all = merge(&["2", "whole"]);
+    assert_eq!(all.code, Some(0));
+    assert!(all.stdout.contains("whole: 1 frames taken"), "{}", all.stdout);
+    assert_same(&dir.path().join("whole"), &dir.path().join("all"));
+    run(&["verify", "all"], dir.path()).ok();
+
+    write(
+        dir.path(),
+        "c.yaml",
+        fs::read_to_string(dir.path().join("c.yaml")).unwrap().replace("[2, 30]", "[2]"),
+    );
+    sweep(dir.path(), "other").ok();
+    let refused = merge(&["whole", "other"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("not parts of one data set"), "{}", refused.stderr);
+}
+
+#[test]
 fn data_sets_are_extended_and_replaced() {
     let dir = folder(AXES);
     let cache = cache();
@@ -170,23 +211,18 @@ mod processes {
 
     #[test]
     fn frames_that_take_too_long_fail_alone() {
-        let dir = folder(AXES);
+        // Two frames: one of a hundred pixels, and one that takes hours.
+        let dir = folder(
+            "fog: none\nsweep: {mode: zip, axes: {sensor.width_px: [8, 4000], render.samples: [1, 1000000]}}\n",
+        );
         let cache = cache();
-        let slow = [
-            "--set",
-            "sweep.axes.lighting=[day]",
-            "--frame-timeout",
-            "1.5",
-            "--set",
-            "sweep.axes.sensor.width_px=[8, 4000]",
-        ];
-        let go = |more: &[&str]| run(&arguments("out", &cache, &[&slow, more].concat()), dir.path());
-        let failed = go(&["--set", "render.samples=800", "--only", "0", "--only", "1"]);
+        let go = || run(&arguments("out", &cache, &["--frame-timeout", "2"]), dir.path());
+        let failed = go();
         assert_eq!(failed.code, Some(1), "{}", failed.stderr);
-        assert!(failed.stderr.contains("FAILED: not done within 1.5 s, 2 times"), "{}", failed.stderr);
+        assert!(failed.stderr.contains("FAILED: not done within 2 s, 2 times"), "{}", failed.stderr);
         assert_eq!(done(&dir.path().join("out")), 1);
         // Not again unless asked to.
-        let failed = go(&["--set", "render.samples=800", "--only", "1"]);
+        let failed = go();
         assert_eq!(failed.code, Some(1));
         assert!(failed.stderr.contains("1 frames failed before"), "{}", failed.stderr);
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     exposure::ExposureFile,
     lens::{IntrinsicsFile, LensFile},
+    path::ShutterFile,
 };
 use crate::ranges;
 
@@ -59,6 +60,9 @@ pub(crate) struct SensorFile {
     /// `pinhole`, {opencv: {k1: …}}, {fisheye: {k1: …}} or `equirectangular`. Absent: pinhole.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) lens: Option<LensFile>,
+    /// `global`, or {rolling: {readout_s: …}}: on a path, rows see it one after another. Absent: global.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) shutter: Option<ShutterFile>,
     /// Factor on linear values before sRGB encoding, or where it comes from: `auto`, {percentile: …, target: …} or
     /// {iso: …, shutter_s: …, f_number: …}.
     pub(crate) exposure: ExposureFile,
@@ -72,6 +76,7 @@ impl Default for SensorFile {
             horizontal_fov_deg: None,
             intrinsics: None,
             lens: None,
+            shutter: None,
             exposure: ExposureFile::Factor(1.0),
         }
     }

@@ -10,11 +10,14 @@ mod lens;
 mod light;
 mod or_none;
 mod patchiness;
+mod path;
 mod phase;
 mod runway;
 mod scene;
 mod sky;
 mod sweep;
+
+use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,6 +32,10 @@ pub(crate) use light::{
 };
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
+pub(crate) use path::{
+    DispersionFile, DriveFile, EachFile, GlideSlopeFile, LardFile, LookFile, PathFile, PathPoseFile,
+    RigCameraFile, ShutterFile,
+};
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use runway::RunwayFile;
 pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
@@ -59,8 +66,14 @@ pub(crate) struct ConfigFile {
     pub(crate) scene: Option<OrNone<SceneFile>>,
     /// The fog, or `none`.
     pub(crate) fog: Option<OrNone<FogFile>>,
-    /// Where the camera stands and looks.
+    /// Where the camera stands and looks; with `cameras`, the rig. Absent with `path`.
     pub(crate) camera: CameraFile,
+    /// Poses over time, instead of `camera`: each makes a frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<PathFile>,
+    /// A rig's cameras by name: each makes a frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cameras: Option<BTreeMap<String, RigCameraFile>>,
     /// The image plane.
     pub(crate) sensor: SensorFile,
     /// A preset or a map of light sources.

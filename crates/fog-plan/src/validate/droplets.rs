@@ -142,7 +142,7 @@ impl Check<'_> {
     }
 
     /// A key that must be there and in its range.
-    fn needed(&mut self, path: &str, value: Option<f64>, range: Range, why: &str) -> Option<f64> {
+    pub(super) fn needed(&mut self, path: &str, value: Option<f64>, range: Range, why: &str) -> Option<f64> {
         let value = self.required(path, value, why);
         value.and_then(|value| self.range(path, value, range))
     }

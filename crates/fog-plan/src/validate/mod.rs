@@ -1,5 +1,6 @@
 //! From the schema to a frame's content: ranges, required keys and rules between keys.
 
+mod approach;
 mod droplets;
 mod exposure;
 mod fog;
@@ -7,10 +8,14 @@ mod lens;
 mod light_groups;
 mod lighting;
 mod patchiness;
+mod path;
+mod pose;
 mod runway;
 mod scene;
 mod sky;
 mod view;
+
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -18,12 +23,16 @@ pub(crate) use fog::{DEFAULT_ALBEDO, DEFAULT_SCALE};
 pub(crate) use lens::DEFAULT_FOV_DEG;
 pub(crate) use view::DEFAULT_MAX_SAMPLES;
 
+use pose::View;
+
 use crate::{
     error::{Problem, Problems},
     frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SensorSpec},
-    node::Node,
+    node::{Entry, Node, Value},
+    path::{CsvFiles, Path, PathSpec},
     ranges::Range,
     read::read,
+    rig::RigSpec,
     runway::RunwaySpec,
     scene::SceneSpec,
     schema::ConfigFile,
@@ -36,6 +45,12 @@ pub(crate) struct Content {
     pub(crate) scene: Option<SceneSpec>,
     pub(crate) fog: FogSpec,
     pub(crate) camera: CameraSpec,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) rig: Option<RigSpec>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<PathSpec>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) readout_end: Option<CameraSpec>,
     pub(crate) sensor: SensorSpec,
     pub(crate) lighting: LightingSpec,
     pub(crate) render: RenderSpec,
@@ -44,17 +59,49 @@ pub(crate) struct Content {
     pub(crate) runway: Option<RunwaySpec>,
 }
 
+/// Which of the frames of a combination of axis values.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'p> {
+    /// Name of the rig's camera, if there is a rig.
+    pub(crate) camera: Option<&'p str>,
+    /// Position among the path's poses.
+    pub(crate) pose: usize,
+    /// The path where it is not in the tree because all frames have the same.
+    pub(crate) path: Option<&'p Arc<Path>>,
+    pub(crate) files: &'p CsvFiles,
+}
+
 /// Reads and checks the tree of one frame.
 ///
 /// # Errors
 /// Every problem found.
-pub(crate) fn content(tree: &Node) -> Result<Content, Vec<Problem>> {
+pub(crate) fn content(tree: &Node, place: &Place<'_>) -> Result<Content, Vec<Problem>> {
+    checked(tree, place.files, |check, file| check.config(file, place))
+}
+
+/// Reads and checks the path of a tree that has one.
+///
+/// # Errors
+/// Every problem of the path.
+pub(crate) fn path(tree: &Node, files: &CsvFiles) -> Result<Arc<Path>, Vec<Problem>> {
+    let path = tree.child("path").cloned();
+    // Nothing else of the tree matters here.
+    let entries = path.map(|node| Entry { key: "path".to_owned(), key_origin: node.origin.clone(), node });
+    let alone = Node::new(Value::Map(entries.into_iter().collect()), &tree.origin);
+    checked(&alone, files, |check, file| check.path(file.path.as_ref()?))
+}
+
+fn checked<T>(
+    tree: &Node,
+    files: &CsvFiles,
+    check_it: impl Fn(&mut Check<'_>, &ConfigFile) -> Option<T>,
+) -> Result<T, Vec<Problem>> {
     let reading = read::<ConfigFile>(tree);
-    let mut check = Check { tree, dropped: &reading.dropped, problems: Problems::default() };
+    let mut check = Check { tree, files, dropped: &reading.dropped, problems: Problems::default() };
     check.problems.extend(reading.problems);
-    let content = reading.value.and_then(|file| check.config(&file));
-    match content {
-        Some(content) if check.problems.is_empty() => Ok(content),
+    let value = reading.value.and_then(|file| check_it(&mut check, &file));
+    match value {
+        Some(value) if check.problems.is_empty() => Ok(value),
         _ => Err(check.problems.into_vec()),
     }
 }
@@ -62,26 +109,31 @@ pub(crate) fn content(tree: &Node) -> Result<Content, Vec<Problem>> {
 /// The tree being checked, for positions, and the problems so far.
 struct Check<'t> {
     tree: &'t Node,
+    files: &'t CsvFiles,
     /// Parts that are wrong already: their absence is no further problem.
     dropped: &'t [Vec<String>],
     problems: Problems,
 }
 
 impl Check<'_> {
-    fn config(&mut self, file: &ConfigFile) -> Option<Content> {
+    fn config(&mut self, file: &ConfigFile, place: &Place<'_>) -> Option<Content> {
         // No `?` before all sections are checked: every problem is to be found.
         let scene = self.scene(file.scene.as_ref());
         let fog = self.fog(file.fog.as_ref());
         let sensor = self.sensor(&file.sensor);
         let render = self.render(&file.render);
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
-        let camera = self.camera(&file.camera, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
+        let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let outputs = self.outputs(&file.outputs);
         let runway = self.runway(file.runway.as_ref());
+        let View { camera, rig, path, readout_end } = view?;
         Some(Content {
             scene: scene?,
             fog: fog?,
-            camera: camera?,
+            camera,
+            rig,
+            path,
+            readout_end,
             sensor: sensor?,
             lighting: lighting?,
             render: render?,

@@ -1,10 +1,11 @@
-//! Checks of `camera`, `sensor`, `render` and `outputs`.
+//! Checks of `sensor`, `render` and `outputs`.
 
 use super::{Check, lens::Geometry};
 use crate::{
-    frame::{CameraSpec, Output, RenderSpec, SensorSpec, StopSpec},
+    frame::{Output, RenderSpec, SensorSpec, StopSpec},
+    lens::ShutterSpec,
     ranges,
-    schema::{CameraFile, OutputFile, Outputs, RenderFile, SensorFile, ShareFile},
+    schema::{OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile},
     share::Share,
 };
 
@@ -14,24 +15,6 @@ pub(crate) const DEFAULT_MAX_SAMPLES: u32 = 8192;
 const MIN_NOISE_SAMPLES: u32 = 16;
 
 impl Check<'_> {
-    pub(super) fn camera(&mut self, camera: &CameraFile, datum_m: f64) -> Option<CameraSpec> {
-        let altitude = self.range("camera.altitude_m", camera.altitude_m, ranges::CAMERA_ALTITUDE_M);
-        let x = self.range("camera.position_m.0", camera.position_m[0], ranges::POSITION_M);
-        let y = self.range("camera.position_m.1", camera.position_m[1], ranges::POSITION_M);
-        let z = self.range("camera.position_m.2", camera.position_m[2], ranges::POSITION_M);
-        let heading = self.range("camera.heading_deg", camera.heading_deg, ranges::HEADING_DEG);
-        let pitch = self.range("camera.pitch_deg", camera.pitch_deg, ranges::PITCH_DEG);
-        let roll = self.range("camera.roll_deg", camera.roll_deg, ranges::ROLL_DEG);
-        y?;
-        Some(CameraSpec {
-            altitude_m: altitude?,
-            position_m: [x?, datum_m + altitude?, z?],
-            heading_deg: heading?,
-            pitch_deg: pitch?,
-            roll_deg: roll?,
-        })
-    }
-
     pub(super) fn sensor(&mut self, sensor: &SensorFile) -> Option<SensorSpec> {
         let width = self.whole("sensor.width_px", sensor.width_px, ranges::IMAGE_PX);
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
@@ -45,6 +28,12 @@ impl Check<'_> {
             intrinsics,
             lens,
             projection,
+            shutter: match sensor.shutter {
+                Some(ShutterFile::Rolling(rolling)) => {
+                    Some(ShutterSpec::Rolling { readout_s: rolling.readout_s.unwrap_or_default() })
+                }
+                _ => None,
+            },
             exposure: exposure?,
         })
     }

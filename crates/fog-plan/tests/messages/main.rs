@@ -37,8 +37,8 @@ fn unknown_keys() {
     assert_eq!(
         errors("fog: none\nweather: bad\n"),
         [
-            "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, sensor, \
-             lighting, render, outputs, sweep"
+            "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, path, \
+             cameras, sensor, lighting, render, outputs, sweep"
         ]
     );
 }
@@ -69,7 +69,7 @@ fn wrong_types() {
     assert_eq!(
         errors("fog: none\nsensor: wide\n"),
         [
-            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, exposure, \
+            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, shutter, exposure, \
           found text \"wide\""
         ]
     );
@@ -453,7 +453,7 @@ fn wrong_sweeps() {
         errors("fog: none\nsweep:\n  axes: {seed: [1, 2], camera.altitude_m: {from: 1, step: 2}}\n"),
         [
             "configs/x.yaml:8:10: sweep.axes.seed: an axis cannot change `seed`; expected one of scene, fog, camera, \
-             sensor, lighting, render, outputs",
+             path, cameras, sensor, lighting, render, outputs, runway",
             "configs/x.yaml:8:43: sweep.axes.camera.altitude_m.to: missing; this key is required",
         ]
     );

@@ -16,7 +16,7 @@ fn turned() -> Pose {
 
 /// Cameras of all lenses, of 320×180 pixels.
 fn cameras() -> Vec<Camera> {
-    let camera = |lens| Camera { pose: turned(), width: 320, height: 180, lens };
+    let camera = |lens| Camera { pose: turned(), width: 320, height: 180, lens, shutter: None };
     let intrinsics = Intrinsics { fx_px: 200.0, fy_px: 210.0, cx_px: 150.0, cy_px: 95.0 };
     let bent = Distortion { k: [-0.2, 0.03, 0.0, 0.0, 0.0, 0.0], p: [0.002, -0.003] };
     let round = Intrinsics { fx_px: 60.0, fy_px: 60.0, ..intrinsics };
@@ -77,7 +77,31 @@ fn depth_is_planar_but_for_equirectangular_images() {
             Lens::Equirectangular(_) => 9.0,
             _ => camera.pose.to_camera(ray.origin + ray.direction * 9.0)[2] as f32,
         };
-        assert!((camera.depth(&ray, 9.0) - want).abs() < 1e-5, "{camera:?}");
-        assert_eq!(camera.depth(&ray, f32::INFINITY), f32::INFINITY);
+        assert!((camera.depth(40.0, 60.0, 9.0) - want).abs() < 1e-5, "{camera:?}");
+        assert_eq!(camera.depth(40.0, 60.0, f32::INFINITY), f32::INFINITY);
+    }
+}
+
+#[test]
+fn rolling_shutters_move_row_by_row() {
+    let end = Pose::new(Vec3A::new(3.5, 2.1, -7.4), 36.0, -19.0, 9.0);
+    for camera in cameras() {
+        let rolling = Camera { shutter: Some(Shutter::new(camera.pose, end)), ..camera };
+        for (y, want) in [(0.0, camera.pose), (180.0, end)] {
+            let pose = rolling.pose_at(y);
+            close(pose.position, want.position);
+            close(pose.right, want.right);
+            close(pose.down, want.down);
+            close(pose.forward, want.forward);
+        }
+        // Half of the way and half of the turn.
+        let middle = rolling.pose_at(90.0);
+        close(middle.position, 0.5 * (camera.pose.position + end.position));
+        assert!((middle.forward.dot(camera.pose.forward) - middle.forward.dot(end.forward)).abs() < 1e-6);
+        for (x, y) in [(10.5, 20.5), (160.0, 90.0), (300.0, 170.5)] {
+            let Some(ray) = rolling.ray(x, y) else { continue };
+            let [px, py] = rolling.project(ray.origin + ray.direction * 30.0).unwrap();
+            assert!((px - x).abs() < 1e-3 && (py - y).abs() < 1e-3, "{rolling:?} ({x}, {y}): ({px}, {py})");
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod accessor;
 mod container;
+mod distributions;
 mod document;
 mod extensions;
 mod files;
@@ -145,8 +146,10 @@ fn decode(bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<Load
     // Primitives without a material use glTF's default one, which comes last.
     materials.push(Material::default());
 
+    let mut distributions = distributions::Distributions::new(&mut files);
+    let (surfaces, most) = ((&materials[..], &textures[..]), limits.max_triangles);
     let nodes::Flat { triangles, colors, tangents, objects, lights, light_names } =
-        nodes::flatten(&document, &buffers, (&materials, &textures), limits.max_triangles, &mut warnings)?;
+        nodes::flatten(&document, &buffers, surfaces, &mut distributions, most, &mut warnings)?;
     let shared: Arc<[Texture]> = textures.iter().cloned().collect();
     let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
     let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);

@@ -1,6 +1,7 @@
 //! Walking the node tree: every mesh instance becomes triangles in world space.
 
 use super::accessor::Buffers;
+use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneObject, Warnings, lights};
 use crate::attributes::CornerValues;
@@ -47,6 +48,7 @@ pub(super) fn flatten(
     document: &Document,
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
+    distributions: &mut Distributions<'_>,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -72,8 +74,8 @@ pub(super) fn flatten(
         }
         let mesh = node.mesh();
         let label = |key: &str, above: &Option<Rc<str>>| {
-            let of_mesh = || mesh.as_ref().and_then(|mesh| extra(mesh.extras(), key));
-            extra(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+            let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
+            text(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
         };
         let here = Inherited {
             world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
@@ -82,7 +84,7 @@ pub(super) fn flatten(
         };
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
-            lights::place(&light, (&name, &here.world), out, warnings)?;
+            lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
         }
         if let Some(mesh) = mesh {
             let primitives = match meshes.get(&mesh.index()) {
@@ -128,10 +130,15 @@ fn node_name(node: &Node<'_>) -> String {
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
 
+/// A member of `extras`.
+pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<serde_json::Value> {
+    let mut extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
+    extras.get_mut(key).map(serde_json::Value::take)
+}
+
 /// A string in `extras`.
-fn extra(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
-    let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
-    extras.get(key)?.as_str().map(Rc::from)
+fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+    extra(extras, key)?.as_str().map(Rc::from)
 }
 
 /// A node's own matrix, in f64.

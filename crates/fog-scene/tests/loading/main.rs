@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod distributions;
 mod materials;
 
 use common::{TRIANGLE, data, document, floats, glb, load_bytes, refusal};

@@ -5,6 +5,7 @@ pub(crate) mod car;
 pub(crate) mod cyclist;
 pub(crate) mod facade;
 pub(crate) mod fleet;
+pub(crate) mod low_beam;
 pub(crate) mod person;
 pub(crate) mod plate;
 pub(crate) mod street_lamp;

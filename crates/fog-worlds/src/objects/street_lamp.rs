@@ -22,6 +22,9 @@ fn lamp() -> Lamp {
         color: colour::HALOGEN,
         candela: 3_000.0,
         cone_deg: Some([30.0, 75.0]),
+        table: None,
+        // A disc of the window's area.
+        radius_m: 0.195,
         source: "LED luminaire of warm white light, about 8 klm, in a round cone",
     }
 }
@@ -30,10 +33,7 @@ fn lamp() -> Lamp {
 pub(crate) fn street_lamp(glb: &mut Glb) -> Shape {
     let steel = glb.material(&Paint::new("galvanised steel", [0.45, 0.46, 0.46]).metal(0.5));
     let head = glb.material(&Paint::new("lamp head", [0.12, 0.125, 0.13]).smooth(0.4));
-    let (rgb, strongest) = colour::split(lamp().color);
-    let luminance = strongest * lamp().lens_luminance(WINDOW[0] * WINDOW[1]);
-    let window =
-        glb.material(&Paint::new("lamp window", [0.7, 0.7, 0.68]).smooth(0.2).shining(rgb, luminance));
+    let window = glb.material(&Paint::new("lamp window", [0.7, 0.7, 0.68]).smooth(0.2));
     let mut model = Model::default();
     model.add(steel, &cylinder(Vec3::ZERO, Vec3::Y * (HEIGHT - 0.4), 0.09, 0.05, 16));
     model.add(steel, &cylinder(Vec3::ZERO, Vec3::Y * 0.9, 0.11, 0.11, 16));

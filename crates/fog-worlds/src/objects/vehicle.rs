@@ -1,9 +1,10 @@
 //! What all vehicles have: paint, wheels, lamps.
 
 use super::body::Skin;
+use super::low_beam::low_beam;
 use super::wheel::WheelSkin;
 use crate::glb::{Glb, Shape};
-use crate::lamp::{Lamp, colour};
+use crate::lamp::colour;
 use crate::mesh::Mat;
 use crate::paint::Paint;
 use crate::place::Place;
@@ -66,16 +67,12 @@ pub(crate) fn finish(glb: &mut Glb, colour_index: usize, lit: bool) -> Finish {
     };
     let head = Paint::new("head lamp", [0.62, 0.64, 0.66]).smooth(0.08);
     let tail = Paint::new("tail lamp", [0.35, 0.008, 0.008]).smooth(0.15);
-    let (head, tail) = if lit {
-        let lens = low_beam()[1].lens_luminance(0.02);
+    let tail = if lit {
         let (red, strongest) = colour::split(colour::RED);
         let rear = strongest * TAIL_CANDELA / TAIL_AREA;
-        (
-            Paint { name: "head lamp, lit".to_owned(), ..head }.shining([1.0; 3], lens),
-            Paint { name: "tail lamp, lit".to_owned(), ..tail }.shining(red, rear),
-        )
+        Paint { name: "tail lamp, lit".to_owned(), ..tail }.shining(red, rear)
     } else {
-        (head, tail)
+        tail
     };
     Finish {
         skin,
@@ -85,20 +82,6 @@ pub(crate) fn finish(glb: &mut Glb, colour_index: usize, lit: bool) -> Finish {
         amber: glb.material(&Paint::new("turn indicator", [0.6, 0.2, 0.01]).smooth(0.15)),
         chrome: glb.material(&Paint::new("chrome", [0.6, 0.6, 0.6]).metal(0.12)),
     }
-}
-
-/// A passing beam in two round cones under the horizon: a narrow one for the range, a wide one for the foreground. The cut-off
-/// is the upper edge of both, level with the lamp. Intensities are of the order that UN Regulation 112 asks at its points 75R
-/// (range) and 25 (foreground); the regulation's asymmetry is left out, and its text was not at hand.
-pub(crate) fn low_beam() -> [Lamp; 2] {
-    let lamp = |name: &str, candela: f32, cone: [f32; 2]| Lamp {
-        name: format!("low beam, {name}"),
-        color: colour::WHITE,
-        candela,
-        cone_deg: Some(cone),
-        source: "passing beam after UN Regulation 112, in round cones",
-    };
-    [lamp("range", 12_000.0, [1.5, 4.0]), lamp("foreground", 3_000.0, [6.0, 16.0])]
 }
 
 impl Vehicle {
@@ -111,13 +94,9 @@ impl Vehicle {
         for (side, x) in [("left", -1.0), ("right", 1.0)] {
             let lens = self.head_lamp * Vec3::new(x, 1.0, 1.0) + Vec3::NEG_Z * 0.02;
             let at = place.point(lens);
-            for (k, lamp) in low_beam().iter().enumerate() {
-                let [_, outer] = lamp.cone_deg.unwrap_or_default();
-                let (s, c) = crate::place::sin_cos(-outer);
-                let axis = place.point(Vec3::new(0.0, s, -c)) - place.at;
-                let aim = Place::at(at.x, at.y, at.z).aimed(axis);
-                glb.lamp(&format!("{name}_{side}_beam_{k}"), self.class, name, lamp, aim);
-            }
+            let axis = place.point(Vec3::NEG_Z) - place.at;
+            let aim = Place::at(at.x, at.y, at.z).aimed(axis);
+            glb.lamp(&format!("{name}_{side}_low_beam"), self.class, name, &low_beam(), aim);
         }
     }
 }

@@ -14,6 +14,11 @@ use std::collections::BTreeMap;
 
 /// Radius of the lens of a PAR-56 lamp: 7 in across.
 const LENS_RADIUS: f32 = 0.089;
+/// Radius of the dome of an elevated light; and of a disc of an inset light's window's area, 80 mm by 14 mm.
+const DOME_RADIUS: f32 = 0.06;
+const WINDOW_RADIUS: f32 = 0.019;
+/// Radius of a small lamp that shines all around.
+pub(super) const SMALL_RADIUS: f32 = 0.05;
 /// Height of elevated lights over the ground.
 const STEM: f32 = 0.35;
 /// A light's point stands this far before its lens.
@@ -44,12 +49,11 @@ impl<'a> Fixtures<'a> {
         Self { glb, percent: options.lights_percent, housing, shapes, count }
     }
 
-    /// A lens that emits into its half of space what the lamp leaves it.
-    fn lens(&mut self, lamp: &Lamp, area_m2: f32) -> Mat {
-        let (rgb, strongest) = colour::split(lamp.color);
-        let luminance = lamp.lens_luminance(area_m2) * strongest;
+    /// The glass of a lens: its lamp's light is seen in the lamp's place.
+    fn lens(&mut self, lamp: &Lamp) -> Mat {
+        let (rgb, _) = colour::split(lamp.color);
         let paint = Paint::new(&format!("{} lens", lamp.name), rgb.map(|c| 0.2 + 0.3 * c)).smooth(0.1);
-        self.glb.material(&paint.shining(rgb, luminance))
+        self.glb.material(&paint)
     }
 
     /// Name of the next light of a group.
@@ -71,9 +75,9 @@ impl<'a> Fixtures<'a> {
 
     /// A lamp on a stem with one lens: approach lights.
     pub(super) fn spotlight(&mut self, group: &'static str, at: Vec3, beam: Beam) {
-        let lamp = beam.kind.lamp(beam.hue, self.percent);
+        let lamp = beam.kind.lamp(beam.hue, self.percent, LENS_RADIUS);
         let shape = self.shape(format!("spotlight, {}", lamp.name), |this| {
-            let lens = this.lens(&lamp, core::f32::consts::PI * LENS_RADIUS * LENS_RADIUS);
+            let lens = this.lens(&lamp);
             let mut model = Model::default();
             let front = Vec3::new(0.0, STEM, -0.06);
             model.add(this.housing, &cylinder(front.with_z(0.1), front, 0.05, 0.1, 16));
@@ -90,12 +94,12 @@ impl<'a> Fixtures<'a> {
 
     /// An elevated light with two beams, each half of its dome of one colour.
     pub(super) fn dome(&mut self, group: &'static str, at: Vec3, heading_deg: f32, beams: [Beam; 2]) {
-        let lamps = beams.map(|b| b.kind.lamp(b.hue, self.percent));
+        let lamps = beams.map(|b| b.kind.lamp(b.hue, self.percent, DOME_RADIUS));
         let shape = self.shape(format!("dome, {} and {}", lamps[0].name, lamps[1].name), |this| {
             let mut model = Model::default();
             model.add(this.housing, &cylinder(Vec3::ZERO, Vec3::Y * (STEM - 0.08), 0.025, 0.04, 8));
             for (k, lamp) in lamps.iter().enumerate() {
-                let lens = this.lens(lamp, core::f32::consts::PI * 0.06 * 0.08);
+                let lens = this.lens(lamp);
                 let half = ball_part(Vec3::ZERO, Vec3::new(0.06, 0.06, 0.08), 12, 0.0, 90.0);
                 let turned = if k == 0 { lying() } else { lying_back() };
                 model.add(lens, &half.placed(shift(0.0, STEM, 0.0) * turned));
@@ -114,13 +118,14 @@ impl<'a> Fixtures<'a> {
 
     /// A light in the pavement with a window for each beam.
     pub(super) fn inset(&mut self, group: &'static str, at: Vec3, beams: &[Beam]) {
-        let lamps: Vec<Lamp> = beams.iter().map(|b| b.kind.lamp(b.hue, self.percent)).collect();
+        let lamps: Vec<Lamp> =
+            beams.iter().map(|b| b.kind.lamp(b.hue, self.percent, WINDOW_RADIUS)).collect();
         let names: Vec<&str> = lamps.iter().map(|l| l.name.as_str()).collect();
         let shape = self.shape(format!("inset, {}", names.join(" and ")), |this| {
             let mut model = Model::default();
             model.add(this.housing, &lathe(&[[0.15, 0.0], [0.12, 0.012], [0.0, 0.0125]], 16));
             for (k, lamp) in lamps.iter().enumerate() {
-                let lens = this.lens(lamp, 0.08 * 0.012);
+                let lens = this.lens(lamp);
                 let side = if k == 0 { -1.0 } else { 1.0 };
                 let window = block(Vec3::new(-0.04, 0.0, 0.12), Vec3::new(0.04, 0.014, 0.135));
                 model.add(lens, &window.placed(Affine3A::from_scale(Vec3::new(1.0, 1.0, side))));
@@ -140,7 +145,7 @@ impl<'a> Fixtures<'a> {
     /// A small lamp that shines all around.
     pub(super) fn omnidirectional(&mut self, group: &'static str, at: Vec3, lamp: &Lamp) {
         let shape = self.shape(format!("omnidirectional, {}", lamp.name), |this| {
-            let lens = this.lens(lamp, 4.0 * core::f32::consts::PI * 0.05 * 0.05);
+            let lens = this.lens(lamp);
             let mut model = Model::default();
             model.add(this.housing, &cylinder(Vec3::ZERO, Vec3::Y * (STEM - 0.05), 0.025, 0.035, 8));
             model.add(lens, &ball(Vec3::Y * STEM, Vec3::splat(0.05), 12));

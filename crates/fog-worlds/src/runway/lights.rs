@@ -1,7 +1,7 @@
 //! Lights of the runway and its taxiway: AC 150/5340-30J (FAA 2018).
 
 use super::beams::{Hue, Kind};
-use super::fixtures::{Beam, Fixtures};
+use super::fixtures::{Beam, Fixtures, SMALL_RADIUS};
 use super::ground::{TAXIWAY_ASIDE, TAXIWAY_WIDTH, connectors};
 use super::{ApproachLights, End, FT, Runway};
 use crate::lamp::{Lamp, colour};
@@ -139,6 +139,8 @@ fn taxiway(lights: &mut Fixtures<'_>, options: &Runway) {
         color: colour::BLUE,
         candela: TAXIWAY_CANDELA * 0.01 * lights.percent,
         cone_deg: None,
+        table: None,
+        radius_m: SMALL_RADIUS,
         source: "FAA AC 150/5345-46, L-861T",
     };
     let aside = 0.5 * TAXIWAY_WIDTH + TAXIWAY_LIGHT_ASIDE;

@@ -97,33 +97,81 @@ fn lights_have_their_numbers_and_candelas() {
     assert_eq!((candelas(&none, "approach").len(), candelas(&none, "threshold_light").len()), (0, 16));
 }
 
+/// Candela of a lamp towards an azimuth (to the right of the pilot who comes in, who is seen along +Z) and an elevation.
+fn candela(lamp: &Lamp, left_deg: f32, up_deg: f32) -> f32 {
+    let sin_cos = |deg: f32| {
+        let r = f64::from(deg).to_radians();
+        (fog_core::math::f64::sin(r) as f32, fog_core::math::f64::cos(r) as f32)
+    };
+    let ((sl, cl), (su, cu)) = (sin_cos(left_deg), sin_cos(up_deg));
+    let [r, g, b] = lamp.intensity;
+    (0.2126 * r + 0.7152 * g + 0.0722 * b) * lamp.falloff(Vec3A::new(cu * sl, su, cu * cl))
+}
+
+/// Lamps whose node's name begins so.
+fn lamps<'a>(made: &'a Made, prefix: &str) -> Vec<&'a Lamp> {
+    let names = made.scene.light_names.lamps.iter().zip(&made.scene.lights.lamps);
+    names.filter(|(name, _)| name.starts_with(prefix)).map(|(_, lamp)| lamp).collect()
+}
+
 #[test]
 fn papi_changes_colour_at_its_angles() {
     let made = runway(Runway::default());
-    let lamps: Vec<&Lamp> = {
-        // PAPI lamps stand 16.5 m and more left of the runway's edge.
-        let near = |l: &&Lamp| l.position.x < -37.0 && l.cone.is_some() && (l.position.z + 310.9).abs() < 2.0;
-        made.scene.lights.lamps.iter().filter(near).collect()
-    };
-    assert_eq!(lamps.len(), 8);
     // Innermost first; white and red of each unit.
     for (unit, boundary) in [3.5f32, 3.0 + 1.0 / 6.0, 3.0 - 1.0 / 6.0, 2.5].into_iter().enumerate() {
-        let pair = &lamps[2 * unit..2 * unit + 2];
+        let lamp = |colour: &str| lamps(&made, &format!("papi_{unit}_{colour}"))[0];
+        let (white, red) = (lamp("white"), lamp("red"));
         let aside = -(22.5 + (50.0 + 30.0 * unit as f32) * FT);
-        assert!((pair[0].position.x - aside).abs() < 0.01);
-        let at = |lamp: &Lamp, deg: f32| {
-            let r = deg.to_radians();
-            lamp.falloff(Vec3A::new(0.0, fog_core::math::f32::sin(r), fog_core::math::f32::cos(r)))
-        };
-        let (white, red) = (pair[0], pair[1]);
-        assert!(at(white, boundary + 0.16) > 0.9 && at(red, boundary + 0.16) < 0.05, "{unit}");
-        assert!(at(white, boundary - 0.16) < 0.05 && at(red, boundary - 0.16) > 0.9, "{unit}");
-        assert!((at(white, boundary) - 0.5).abs() < 0.1 && (at(red, boundary) - 0.5).abs() < 0.1, "{unit}");
-        // Luminance of 15,000 cd, by the weights of Rec. 709.
-        for lamp in pair {
-            let [r, g, b] = lamp.intensity;
-            assert!((0.2126 * r + 0.7152 * g + 0.0722 * b - 15_000.0).abs() < 20.0);
+        assert!((white.position.x - aside).abs() < 0.01 && white.position == red.position);
+        for aside in [0.0f32, -3.0, 5.0] {
+            // Two minutes of arc over and under the boundary, which sinks by its own cosine away from the axis.
+            let here = boundary * fog_core::math::f32::cos(aside.to_radians());
+            let [over, under] = [here + 2.0 / 60.0, here - 2.0 / 60.0];
+            assert!(candela(white, aside, over) > 10_000.0 && candela(red, aside, over) == 0.0, "{unit}");
+            assert!(candela(red, aside, under) > 5_000.0 && candela(white, aside, under) == 0.0, "{unit}");
         }
+        // Half of each on the boundary; 30,000 and 15,000 cd beside it.
+        assert!(
+            (candela(white, 0.0, boundary) - 15_000.0).abs() < 300.0,
+            "{}",
+            candela(white, 0.0, boundary)
+        );
+        assert!((candela(red, 0.0, boundary) - 7_500.0).abs() < 150.0, "{}", candela(red, 0.0, boundary));
+        assert!((candela(white, 0.0, boundary + 0.03) - 30_000.0).abs() < 100.0);
+        assert!((candela(red, 0.0, boundary - 0.03) - 15_000.0).abs() < 50.0);
+    }
+}
+
+#[test]
+fn beams_have_the_candelas_of_their_figures() {
+    let made = runway(Runway::default());
+    // Name, average intensity, elevation and toe-in of the axis, half-axes of main beam and outermost curve.
+    for (prefix, average, up, toe, [a, b], [c, d]) in [
+        ("approach_light_119", 20_000.0, 8.0, 0.0, [10.0, 5.5], [15.0, 8.5]),
+        ("side_row_light_000", 5_000.0, 5.5, 2.0, [7.0, 5.0], [16.5, 8.0]),
+        ("threshold_light_030", 10_000.0, 4.5, 0.0, [5.5, 4.5], [9.0, 8.5]),
+        ("edge_light_000_white_to_approach", 10_000.0, 3.5, 3.5, [5.5, 3.5], [9.0, 8.5]),
+        ("touchdown_zone_light_000", 5_000.0, 5.5, 4.0, [5.0, 3.5], [8.5, 8.5]),
+        ("centre_line_light_000_white_to_approach", 5_000.0, 3.5, 0.0, [5.0, 3.5], [8.5, 8.5]),
+    ] {
+        let found = lamps(&made, prefix);
+        assert_eq!(found.len(), 1, "{prefix}");
+        let lamp = found[0];
+        // Towards the centre line, that is to +X for a light on the left.
+        let toe: f32 = if lamp.position.x < 0.0 { toe } else { -toe };
+        for (left, above, want, allowed) in [
+            (0.0, 0.0, 1.5, 0.002),
+            (a, 0.0, 0.5, 0.02),
+            (0.0, b, 0.5, 0.02),
+            (0.0, -b, 0.5, 0.02),
+            // Azimuths are those of the tilted lamp.
+            (c, 0.0, 0.05, 0.01),
+            (0.0, d, 0.05, 0.005),
+        ] {
+            let got = candela(lamp, toe + left, up + above) / average;
+            assert!((got - want).abs() < allowed, "{prefix} at {left}, {above}: {got} for {want}");
+        }
+        assert_eq!(candela(lamp, 180.0, 0.0), 0.0);
     }
 }
 
@@ -135,7 +183,8 @@ fn approach_beams_look_up_the_glide_path() {
     assert_eq!(farthest.len(), 5);
     for lamp in farthest {
         // 8° up (CS-ADR-DSN, Fig. U-5), and 40.5 in apart.
-        assert!((lamp.cone.unwrap().axis.y - fog_core::math::f32::sin(8.0f32.to_radians())).abs() < 1e-4);
+        let up = lamp.axis().unwrap().y;
+        assert!((up - fog_core::math::f32::sin(8.0f32.to_radians())).abs() < 1e-4, "{up}");
         let slot = lamp.position.x / (40.5 / 12.0 * FT);
         assert!((slot - slot.round()).abs() < 1e-3);
     }

@@ -2,7 +2,6 @@
 
 use super::air::Air;
 use super::site::RunwaySite;
-use fog_core::DVec3;
 use fog_core::colour::luminance;
 use fog_core::math::f64::exp;
 use fog_optics::visibility::threshold::Threshold;
@@ -124,7 +123,7 @@ pub(super) fn look(
     threshold: &Threshold,
 ) -> Vec<Seen> {
     let eye = camera.pose.position.as_dvec3();
-    let serves = |lamp: &Lamp| axis(lamp).is_none_or(|axis| axis.dot(site.forward()) < 0.0);
+    let serves = |lamp: &Lamp| lamp.axis().is_none_or(|axis| axis.as_dvec3().dot(site.forward()) < 0.0);
     let kinds = lamps.iter().filter_map(|lamp| Some((Kind::of(&lamp.node)?, lamp)));
     let seen = kinds.filter(|(_, lamp)| serves(&lamp.lamp)).map(|(kind, RunwayLamp { node, lamp })| {
         let place = lamp.position.as_dvec3();
@@ -153,11 +152,6 @@ pub(super) fn look(
         }
     });
     seen.collect()
-}
-
-/// Direction of a beam; `None` if the lamp shines all around.
-fn axis(lamp: &Lamp) -> Option<DVec3> {
-    lamp.cone.map(|cone| cone.axis.as_dvec3())
 }
 
 /// What is seen of each group, in the order of `GROUPS`; groups without lamps are left out.

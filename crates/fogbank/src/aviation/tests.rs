@@ -5,7 +5,7 @@ use fog_core::Vec3A;
 use fog_core::math::f64::{atan2, exp, tan};
 use fog_optics::visibility::{allard_m, koschmieder::MOR_OPTICAL_DEPTH};
 use fog_scene::camera::Pose;
-use fog_scene::lamp::{Cone, Lamp};
+use fog_scene::lamp::{Cone, Lamp, Pattern};
 use serde_json::{Value, json};
 
 /// A runway along −Z with its threshold at the origin.
@@ -27,7 +27,7 @@ fn camera(x: f32, y: f32, z: f32) -> Camera {
 
 /// A lamp that shines all around with this intensity.
 fn lamp(node: &str, z: f32, cd: f32) -> RunwayLamp {
-    let lamp = Lamp { position: Vec3A::new(0.0, 0.0, z), intensity: [cd; 3], cone: None };
+    let lamp = Lamp::even(Vec3A::new(0.0, 0.0, z), [cd; 3]);
     RunwayLamp { node: node.to_owned(), lamp }
 }
 
@@ -147,7 +147,7 @@ fn ground_and_markings_are_seen_at_five_percent() {
 
 #[test]
 fn beams_sides_and_obstacles_count() {
-    let towards = |axis: Vec3A| Some(Cone { axis, cos_inner: 0.99, cos_outer: 0.95 });
+    let towards = |axis: Vec3A| Pattern::Cone(Cone { axis, cos_inner: 0.99, cos_outer: 0.95 });
     let mut lamps = vec![
         lamp("approach_light_000_white_to_approach", 300.0, 1e4),
         lamp("approach_light_001_white_to_approach", 300.0, 1e4),
@@ -155,9 +155,9 @@ fn beams_sides_and_obstacles_count() {
         lamp("approach_light_002", 900.0, 1e4),
         lamp("tree_000", 100.0, 1e4),
     ];
-    lamps[0].lamp.cone = towards(Vec3A::Z);
-    lamps[1].lamp.cone = towards(Vec3A::new(0.0, 0.6, 0.8));
-    lamps[2].lamp.cone = towards(Vec3A::NEG_Z);
+    lamps[0].lamp.pattern = towards(Vec3A::Z);
+    lamps[1].lamp.pattern = towards(Vec3A::new(0.0, 0.6, 0.8));
+    lamps[2].lamp.pattern = towards(Vec3A::NEG_Z);
     let eye = camera(0.0, 10.0, 500.0);
     let clear = approach(&eye, &lamps, 0.0, 0.0);
     // One is in its beam; one shines over the eye; one is behind it; the edge light's beam is for the other end; a tree is no light.

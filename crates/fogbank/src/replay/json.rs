@@ -25,6 +25,7 @@ impl Replayed {
             "value": self.channels(&path.sample.value()),
             "direct": self.channels(&path.sample.direct),
             "airlight": self.channels(&path.sample.airlight),
+            "lamps_in_pixel": self.channels(&path.lamps),
         })
     }
 

@@ -35,7 +35,15 @@ impl Display for Replayed {
         let [all, direct, airlight] =
             [&sample.value(), &sample.direct, &sample.airlight].map(|v| list(self.channels(v)));
         writeln!(f, "\nsum of {steps} contribution{}", if steps == 1 { "" } else { "s" })?;
-        writeln!(f, "to the film: {all}; of it came straight {direct}, from the fog {airlight}")
+        writeln!(f, "to the film: {all}; of it came straight {direct}, from the fog {airlight}")?;
+        if path.lamps != [0.0; 3] {
+            let lamps = list(self.channels(&path.lamps));
+            writeln!(
+                f,
+                "lamps that stand in the pixel add {lamps}, which no path finds, to the mean of its paths"
+            )?;
+        }
+        Ok(())
     }
 }
 
