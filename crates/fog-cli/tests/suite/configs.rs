@@ -13,12 +13,12 @@ fn record(dir: &Path, config: &str, index: usize, sets: &[&str]) -> serde_json::
     let plan = run(&args, dir).ok().stdout;
     let frame = json(plan.lines().nth(index).expect("a frame"));
     let id = frame["id"].as_str().expect("id").to_owned();
-    let cache = cache();
-    let mut args = vec!["render", path.as_str(), "--frame", &id, "--out", config, "--cache-dir", &cache];
+    let (cache, out) = (cache(), format!("{config}-{index}"));
+    let mut args = vec!["render", path.as_str(), "--frame", &id, "--out", &out, "--cache-dir", &cache];
     args.extend(&sets);
     let done = run(&args, dir);
     assert_eq!(done.code, Some(0), "{config}: {}", done.stderr);
-    read_json(&dir.join(format!("{config}/{id}.json")))
+    read_json(&dir.join(format!("{out}/{id}.json")))
 }
 
 #[test]

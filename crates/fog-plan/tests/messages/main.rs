@@ -38,7 +38,7 @@ fn unknown_keys() {
         errors("fog: none\nweather: bad\n"),
         [
             "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, path, \
-             cameras, sensor, lighting, render, outputs, sweep"
+             cameras, sensor, lighting, render, outputs, runway, sweep"
         ]
     );
 }
