@@ -38,6 +38,9 @@ export FOGBANK_OIDN
 step "tests in release mode"
 cargo test --release --workspace
 
+step "a job array on Slurm"
+bash tests/slurm.sh "${CARGO_TARGET_DIR:-target}/release/fogbank"
+
 step "tools in Python"
 bash tools/test.sh
 

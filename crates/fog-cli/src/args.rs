@@ -1,6 +1,7 @@
 //! Arguments as they are typed.
 
 mod compare;
+mod emit;
 mod figures;
 mod fit;
 mod fog_source;
@@ -15,6 +16,7 @@ mod sweep;
 mod visibility;
 
 pub(crate) use compare::CompareArgs;
+pub(crate) use emit::{EmitArgs, EmitCommand, KubernetesArgs, PartsArgs, SlurmArgs};
 pub(crate) use figures::{FigureFormat, FiguresArgs};
 pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
 pub(crate) use fog_source::FogSourceArgs;
@@ -67,6 +69,8 @@ pub(crate) enum Command {
     Fit(FitArgs),
     /// Join folders that hold parts of one data set, and prove that nothing is missing.
     Merge(MergeArgs),
+    /// Write a sweep as a job array of a cluster.
+    Emit(EmitArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.

@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         args::Command::Scene(args) => commands::scene::run(&args),
         args::Command::Fit(args) => commands::fit::run(&args),
         args::Command::Merge(args) => commands::merge::run(&args),
+        args::Command::Emit(args) => commands::emit::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
         args::Command::Figures(args) => commands::figures::run(&args),
         args::Command::Visibility(args) => commands::visibility::run(&args),

@@ -10,9 +10,17 @@ pub struct SceneSpec {
     /// Where it comes from.
     #[serde(flatten)]
     pub source: SceneSource,
+    /// Time in seconds at which what moves in it is shown: `scene.time_s`, plus on a path that of the pose. Not written where it
+    /// is 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub time_s: f64,
     /// What it may cost. Not written: it decides whether there is a frame, not what it shows.
     #[serde(skip)]
     pub limits: SceneLimits,
+}
+
+fn is_zero(time_s: &f64) -> bool {
+    *time_s == 0.0
 }
 
 /// Where a scene comes from. Displays as what a message calls it.

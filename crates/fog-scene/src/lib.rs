@@ -1,6 +1,7 @@
 //! glTF, geometry, BVH, materials, media, phase functions, lights and cameras: an immutable scene
 
 mod aim;
+mod animation;
 mod attributes;
 mod bvh;
 mod error;
@@ -12,12 +13,13 @@ mod texture;
 mod triangle;
 mod uv_transform;
 
+pub use animation::Animation;
 pub use attributes::CornerValues;
 pub use bvh::Hit;
 pub use error::{SceneError, SceneErrorKind};
 pub use features::Features;
 pub use geometry::Geometry;
-pub use gltf_load::{Limits, LoadedScene, SceneObject, load, load_bytes};
+pub use gltf_load::{Limits, LoadedScene, SceneFile, SceneObject, load, load_bytes};
 pub use material::{AlphaMode, Material, NormalMap, Opacity, SurfaceParameters, TextureRef};
 pub use texture::{Encoding, Filter, Image, Texture, Wrap};
 pub use triangle::{SurfacePoint, Triangle, offset_origin};

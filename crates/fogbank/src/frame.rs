@@ -45,6 +45,14 @@ pub fn next_camera(spec: &FrameSpec) -> Option<Camera> {
     Some(camera_at(&spec.sensor, &next.camera, next.readout_end.as_ref()))
 }
 
+/// Time of the scene in seconds at the next pose of a frame's path, for [`fog_scene::LoadedScene::motion`]; none where there is
+/// none.
+#[must_use]
+pub fn next_scene_time_s(spec: &FrameSpec) -> Option<f64> {
+    let path = spec.path.as_ref()?;
+    Some(spec.scene.as_ref()?.time_s - path.time_s + path.next?.time_s)
+}
+
 fn camera_at(sensor: &SensorSpec, camera: &CameraSpec, readout_end: Option<&CameraSpec>) -> Camera {
     let at = |c: &CameraSpec| pose(c.position_m, [c.heading_deg, c.pitch_deg, c.roll_deg]);
     let pose = at(camera);

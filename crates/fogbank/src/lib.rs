@@ -61,7 +61,7 @@ pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_tracer::render::Work;
 pub use fog_worlds as worlds;
-pub use frame::{Rendered, camera, next_camera, render_frame, scene};
+pub use frame::{Rendered, camera, next_camera, next_scene_time_s, render_frame, scene};
 pub use progress::{Event, Progress, Silent};
 pub use reference::Reference;
 pub use replay::{Replayed, replay};

@@ -3,12 +3,12 @@
 use crate::error::Error;
 use crate::progress::{Event, Progress};
 use fog_plan::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
-use fog_scene::{Limits, LoadedScene, SceneError, SceneErrorKind};
+use fog_scene::{Limits, LoadedScene, SceneError, SceneErrorKind, SceneFile};
 use fog_worlds::{ApproachLights, Highway, Runway, Style, Targets, Urban, World};
 use serde_json::json;
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Scenes by what they are made from, each made once. Why one cannot be had is remembered and fails the frames that need it.
@@ -20,9 +20,40 @@ pub(crate) struct Scenes {
 
 #[derive(Debug)]
 struct Known {
+    /// As it is at the time that it was first asked for.
     scene: Arc<LoadedScene>,
+    /// Where it comes from, if something in it moves.
+    moving: Option<Moving>,
     /// BLAKE3 of the bytes of a scene by formula, in hexadecimal.
     blake3: Option<String>,
+}
+
+/// A scene that is another at each time.
+#[derive(Debug)]
+struct Moving {
+    file: SceneFile,
+    /// The last one made: frames of one time follow each other.
+    last: Mutex<Arc<LoadedScene>>,
+}
+
+impl Known {
+    fn new(file: SceneFile, time_s: f64, blake3: Option<String>) -> Result<Self, SceneError> {
+        let scene = Arc::new(file.at(time_s)?);
+        let moving = file.moves().then(|| Moving { file, last: Mutex::new(scene.clone()) });
+        Ok(Self { scene, moving, blake3 })
+    }
+
+    fn at(&self, time_s: f64) -> Result<Arc<LoadedScene>, SceneError> {
+        let Some(moving) = &self.moving else { return Ok(self.scene.clone()) };
+        if self.scene.time_s == time_s {
+            return Ok(self.scene.clone());
+        }
+        let mut last = moving.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.time_s != time_s {
+            *last = Arc::new(moving.file.at(time_s)?);
+        }
+        Ok(last.clone())
+    }
 }
 
 impl Scenes {
@@ -44,14 +75,14 @@ impl Scenes {
         self.known.insert(key(spec), known);
     }
 
-    /// The scene, or empty space.
+    /// The scene at its time, or empty space.
     ///
     /// # Errors
     /// Why it could not be had.
     pub(crate) fn get(&self, spec: Option<&SceneSpec>) -> Result<Arc<LoadedScene>, Error> {
         let Some(spec) = spec else { return Ok(self.empty.clone()) };
         match self.known.get(&key(spec)) {
-            Some(Ok(known)) => Ok(known.scene.clone()),
+            Some(Ok(known)) => known.at(spec.time_s).map_err(|e| Error::Scene(message(&e))),
             Some(Err(reason)) => Err(Error::Scene(reason.clone())),
             None => Err(Error::Scene(format!("{} was not prepared", spec.source))),
         }
@@ -63,7 +94,7 @@ impl Scenes {
     }
 }
 
-/// All that a scene depends on.
+/// All that a scene depends on but its time.
 fn key(spec: &SceneSpec) -> (String, SceneLimits) {
     (json!(spec.source).to_string(), spec.limits)
 }
@@ -72,15 +103,15 @@ fn load(spec: &SceneSpec) -> Result<Known, String> {
     let limits = limits(&spec.limits);
     match &spec.source {
         SceneSource::File { file } => {
-            let scene = fog_scene::load(file, &limits).map_err(|e| message(&e))?;
-            Ok(Known { scene: Arc::new(scene), blake3: None })
+            let scene = SceneFile::open(file, &limits).map_err(|e| message(&e))?;
+            Known::new(scene, spec.time_s, None).map_err(|e| message(&e))
         }
         SceneSource::Made(made) => {
             let name = spec.source.to_string();
             let bytes = world(made).glb(made.seed()).map_err(|e| format!("scene: {name}: {e}"))?;
             let blake3 = Some(blake3::hash(&bytes).to_hex().to_string());
-            let scene = fog_scene::load_bytes(Path::new(&name), &bytes, &limits).map_err(|e| message(&e))?;
-            Ok(Known { scene: Arc::new(scene), blake3 })
+            let scene = SceneFile::from_bytes(Path::new(&name), &bytes, &limits).map_err(|e| message(&e))?;
+            Known::new(scene, spec.time_s, blake3).map_err(|e| message(&e))
         }
     }
 }

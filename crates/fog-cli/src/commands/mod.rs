@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 pub(crate) mod compare;
+pub(crate) mod emit;
 pub(crate) mod figures;
 pub(crate) mod fit;
 mod fog_source;

@@ -86,6 +86,38 @@ fn folders_are_merged_and_proved_whole() {
 }
 
 #[test]
+fn job_arrays_are_written_and_run() {
+    let dir = folder(AXES);
+    let cache = cache();
+    let emit = |more: &[&str]| {
+        let args = ["c.yaml", "--out", "out", "--parts", "3", "--cpus", "1", "--cache-dir", &cache];
+        run(&[&["emit"], &more[..1], &args, &more[1..]].concat(), dir.path()).ok().stdout
+    };
+    let script = emit(&["slurm", "--set", "render.samples=2", "--partition", "fog"]);
+    assert!(
+        script.contains("#SBATCH --array=0-2\n") && script.contains("#SBATCH --partition=fog\n"),
+        "{script}"
+    );
+    // As Slurm runs it.
+    for task in ["0", "2", "1"] {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &script]).current_dir(dir.path()).env("SLURM_SUBMIT_DIR", dir.path());
+        let variables =
+            [("SLURM_ARRAY_TASK_ID", task), ("SLURM_ARRAY_TASK_COUNT", "3"), ("SLURM_ARRAY_TASK_MIN", "0")];
+        let ended = shell.envs(variables).output().unwrap();
+        assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    }
+    assert_eq!(done(&dir.path().join("out")), 12);
+
+    let job = json(&emit(&["kubernetes", "--image", "fogbank:0.1", "--claim", "data", "--parallelism", "2"]));
+    let spec = &job["spec"];
+    let numbers = [&spec["completions"], &spec["parallelism"]].map(|n| n.as_u64());
+    assert_eq!((numbers, &spec["completionMode"]), ([Some(3), Some(2)], &"Indexed".into()));
+    let command = spec["template"]["spec"]["containers"][0]["command"].to_string();
+    assert!(command.contains(r#""--shard","auto/3""#), "{command}");
+}
+
+#[test]
 fn data_sets_are_extended_and_replaced() {
     let dir = folder(AXES);
     let cache = cache();

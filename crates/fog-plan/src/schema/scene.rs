@@ -14,6 +14,10 @@ use crate::ranges;
 pub(crate) struct SceneFile {
     /// Path of a glTF scene (`.glb` or `.gltf`), relative to the current folder.
     pub(crate) file: Option<String>,
+    /// Time in seconds at which what moves in it (glTF animations, which all play from 0) is shown; a path's times are added.
+    /// Absent: 0.
+    #[schemars(range(min = ranges::TIME_S.min, max = ranges::TIME_S.max))]
+    pub(crate) time_s: Option<f64>,
     /// In place of `file`: a scene by formula, made when it is needed. The same options and seed are the same scene.
     pub(crate) generate: Option<WorldName>,
     /// Number that decides what the options leave open (urban, highway, runway). Absent: 1.

@@ -127,8 +127,12 @@ impl Check<'_> {
         let outputs = self.outputs(&file.outputs);
         let runway = self.runway(file.runway.as_ref());
         let View { camera, rig, path, readout_end } = view?;
+        let mut scene = scene?;
+        if let (Some(scene), Some(path)) = (&mut scene, &path) {
+            scene.time_s += path.time_s;
+        }
         Some(Content {
-            scene: scene?,
+            scene,
             fog: fog?,
             camera,
             rig,

@@ -33,7 +33,8 @@ impl Check<'_> {
             None if scene.file.is_none() && self.reported("scene.generate") => None,
             None => self.scene_file(scene),
         };
-        Some(Some(SceneSpec { source: source?, limits: limits? }))
+        let time_s = self.range("scene.time_s", scene.time_s.unwrap_or(0.0), ranges::TIME_S);
+        Some(Some(SceneSpec { source: source?, time_s: time_s?, limits: limits? }))
     }
 
     fn scene_file(&mut self, scene: &SceneFile) -> Option<SceneSource> {

@@ -158,3 +158,16 @@ fn the_approach_is_a_glide_slope() {
     let slope = plan.frame(0).unwrap().path.unwrap().approach.unwrap().vertical_angle_deg;
     assert!((slope - 3.5).abs() < 1e-12);
 }
+
+#[test]
+fn the_scene_moves_with_the_path() {
+    let base = "version: 1\nname: t\nscene: {file: a.glb, time_s: 10}\nfog: none\n";
+    let times = |lines: &str| -> Vec<f64> {
+        let plan = fog_plan::parse(&format!("{base}{lines}"), "t.yaml", &[]).unwrap();
+        plan.frames().map(|f| f.unwrap().scene.unwrap().time_s).collect()
+    };
+    assert_eq!(times(""), [10.0]);
+    assert_eq!(times("path: {poses: [{position_m: [0, 2, 0]}, {position_m: [0, 2, 1]}]}\n"), [10.0, 11.0]);
+    let none = fog_plan::parse(&base.replace(", time_s: 10", ""), "t.yaml", &[]).unwrap().frame(0).unwrap();
+    assert!(serde_json::to_value(&none).unwrap()["scene"].get("time_s").is_none());
+}

@@ -52,6 +52,8 @@ impl Buffers {
             (DataType::F32, _) => |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]),
             (DataType::U8, true) => |b| f32::from(b[0]) / 255.0,
             (DataType::U16, true) => |b| f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0,
+            (DataType::I8, true) => |b| (f32::from(b[0].cast_signed()) / 127.0).max(-1.0),
+            (DataType::I16, true) => |b| (f32::from(i16::from_le_bytes([b[0], b[1]])) / 32767.0).max(-1.0),
             (other, _) => return Err(format!("has components of type {other:?}, which are not supported")),
         };
         let size = accessor.data_type().size();

@@ -21,14 +21,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Reader of distributions, each once.
-pub(super) struct Distributions<'a> {
-    files: &'a mut Files,
+pub(super) struct Distributions {
+    files: Files,
     by_uri: BTreeMap<String, (IesFile, Arc<Photometry>)>,
     by_light: BTreeMap<usize, Arc<Photometry>>,
 }
 
-impl<'a> Distributions<'a> {
-    pub(super) fn new(files: &'a mut Files) -> Self {
+impl Distributions {
+    pub(super) fn new(files: Files) -> Self {
         Self { files, by_uri: BTreeMap::new(), by_light: BTreeMap::new() }
     }
 

@@ -18,7 +18,7 @@ const MAX_RADIUS_M: f64 = 100.0;
 pub(super) fn place(
     (light, of_node): (&Light<'_>, &Node<'_>),
     (node, world): (&str, &DMat4),
-    distributions: &mut Distributions<'_>,
+    distributions: &mut Distributions,
     (out, names): (&mut PunctualLights, &mut LightNames),
     warnings: &mut Warnings,
 ) -> Result<(), Failure> {

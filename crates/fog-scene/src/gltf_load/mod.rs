@@ -1,6 +1,7 @@
 //! Loading a glTF 2.0 scene (.glb or .gltf) from a file that nobody vouches for.
 
 mod accessor;
+mod animations;
 mod container;
 mod distributions;
 mod document;
@@ -15,13 +16,15 @@ mod primitives;
 mod tangents;
 mod uri;
 
+use crate::animation::Animation;
 use crate::error::{Failure, SceneError, SceneErrorKind};
 use crate::geometry::Geometry;
 use crate::lamp::{LightNames, PunctualLights};
 use crate::material::{Material, Opacity};
 use crate::texture::Texture;
-use std::path::Path;
-use std::sync::Arc;
+use fog_core::DMat4;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a scene file may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +79,10 @@ pub struct LoadedScene {
     pub light_names: LightNames,
     /// `extras` of the scene; null if it has none.
     pub extras: serde_json::Value,
+    /// Time in seconds at which everything is where it is.
+    pub time_s: f64,
+    /// What moves; none where nothing does.
+    pub animation: Option<Arc<Animation>>,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -96,7 +103,27 @@ impl Warnings {
     }
 }
 
-/// Loads a scene: its default one, or its first.
+/// A scene file in memory, from which scenes at different times are made. They share materials and textures with it.
+pub struct SceneFile {
+    path: PathBuf,
+    document: gltf::Document,
+    buffers: accessor::Buffers,
+    materials: Vec<Material>,
+    textures: Vec<Texture>,
+    /// Of its lights; each is read once, whatever the time.
+    distributions: Mutex<distributions::Distributions>,
+    animation: Option<Animation>,
+    max_triangles: usize,
+    warnings: Vec<String>,
+}
+
+impl std::fmt::Debug for SceneFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SceneFile").field("path", &self.path).finish_non_exhaustive()
+    }
+}
+
+/// Loads a scene, its default one or its first, as it is at time 0.
 ///
 /// Reads `path` and nothing outside of its folder; URIs with a scheme (other than `data:`), absolute paths and paths that
 /// leave the folder, links included, are refused.
@@ -105,10 +132,7 @@ impl Warnings {
 /// [`SceneError`] names the file, the node, mesh, material or image, and what is wrong; damaged, hostile or oversized
 /// files are errors, never panics.
 pub fn load(path: &Path, limits: &Limits) -> Result<LoadedScene, SceneError> {
-    let mut files = files::Files::beside(path, limits.max_file_bytes);
-    let loaded =
-        files.read_scene(path).map_err(Failure::from).and_then(|bytes| decode(&bytes, files, limits));
-    loaded.map_err(|failure| failure.of(path))
+    SceneFile::open(path, limits)?.at(0.0)
 }
 
 /// As [`load`], from the bytes of a file; `name` is for messages. There is no folder: whatever the scene needs is inside of it.
@@ -116,51 +140,122 @@ pub fn load(path: &Path, limits: &Limits) -> Result<LoadedScene, SceneError> {
 /// # Errors
 /// As those of [`load`].
 pub fn load_bytes(name: &Path, bytes: &[u8], limits: &Limits) -> Result<LoadedScene, SceneError> {
-    let mut files = files::Files::nowhere(limits.max_file_bytes);
-    let loaded = files.count(bytes).map_err(Failure::from).and_then(|()| decode(bytes, files, limits));
-    loaded.map_err(|failure| failure.of(name))
+    SceneFile::from_bytes(name, bytes, limits)?.at(0.0)
 }
 
-/// A scene from the bytes of its file; `files` fetches those that it names.
-fn decode(bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<LoadedScene, Failure> {
-    let mut warnings = Warnings::default();
-    let container::Parts { json, blob } = container::split(bytes)?;
-    let document = document::parse(json, &mut warnings)?;
-    if document.nodes().len() > limits.max_nodes {
-        return Err(
-            SceneErrorKind::TooManyNodes { limit: limits.max_nodes, found: document.nodes().len() }.into()
-        );
+impl SceneFile {
+    /// Reads a file as [`load`] does.
+    ///
+    /// # Errors
+    /// As those of [`load`].
+    pub fn open(path: &Path, limits: &Limits) -> Result<Self, SceneError> {
+        let mut files = files::Files::beside(path, limits.max_file_bytes);
+        let read = files.read_scene(path).map_err(Failure::from);
+        read.and_then(|bytes| Self::decode(path, &bytes, files, limits)).map_err(|failure| failure.of(path))
     }
-    let extras = nodes::default_scene(&document).and_then(|scene| {
-        let extras = scene.extras().as_ref()?;
-        serde_json::from_str(extras.get()).ok()
-    });
-    let buffers = accessor::Buffers::load(&document, blob, &mut files)?;
 
-    let mut images = images::Images::new(&document, &buffers, &mut files, limits.max_texture_pixels);
-    let mut materials = document
-        .materials()
-        .map(|material| materials::convert(&material, &mut images, &mut warnings))
-        .collect::<Result<Vec<_>, Failure>>()?;
-    let textures = images.into_textures();
-    // Primitives without a material use glTF's default one, which comes last.
-    materials.push(Material::default());
+    /// Reads bytes as [`load_bytes`] does.
+    ///
+    /// # Errors
+    /// As those of [`load`].
+    pub fn from_bytes(name: &Path, bytes: &[u8], limits: &Limits) -> Result<Self, SceneError> {
+        let mut files = files::Files::nowhere(limits.max_file_bytes);
+        let counted = files.count(bytes).map_err(Failure::from);
+        counted.and_then(|()| Self::decode(name, bytes, files, limits)).map_err(|failure| failure.of(name))
+    }
 
-    let mut distributions = distributions::Distributions::new(&mut files);
-    let (surfaces, most) = ((&materials[..], &textures[..]), limits.max_triangles);
-    let nodes::Flat { triangles, colors, tangents, objects, lights, light_names } =
-        nodes::flatten(&document, &buffers, surfaces, &mut distributions, most, &mut warnings)?;
-    let shared: Arc<[Texture]> = textures.iter().cloned().collect();
-    let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
-    let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
-    Ok(LoadedScene {
-        geometry,
-        materials,
-        textures,
-        objects,
-        lights,
-        light_names,
-        extras: extras.unwrap_or_default(),
-        warnings: warnings.0,
-    })
+    /// `files` fetches the files that the scene names.
+    fn decode(path: &Path, bytes: &[u8], mut files: files::Files, limits: &Limits) -> Result<Self, Failure> {
+        let mut warnings = Warnings::default();
+        let container::Parts { json, blob } = container::split(bytes)?;
+        let document = document::parse(json, &mut warnings)?;
+        if document.nodes().len() > limits.max_nodes {
+            return Err(SceneErrorKind::TooManyNodes {
+                limit: limits.max_nodes,
+                found: document.nodes().len(),
+            }
+            .into());
+        }
+        let buffers = accessor::Buffers::load(&document, blob, &mut files)?;
+
+        let mut images = images::Images::new(&document, &buffers, &mut files, limits.max_texture_pixels);
+        let mut materials = document
+            .materials()
+            .map(|material| materials::convert(&material, &mut images, &mut warnings))
+            .collect::<Result<Vec<_>, Failure>>()?;
+        let textures = images.into_textures();
+        // Primitives without a material use glTF's default one, which comes last.
+        materials.push(Material::default());
+        let animation = animations::read(&document, &buffers, &mut warnings)?;
+        Ok(Self {
+            path: path.to_owned(),
+            document,
+            buffers,
+            materials,
+            textures,
+            distributions: Mutex::new(distributions::Distributions::new(files)),
+            animation,
+            max_triangles: limits.max_triangles,
+            warnings: warnings.0,
+        })
+    }
+
+    /// Whether anything moves; if not, the scene is the same at all times.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.animation.is_some()
+    }
+
+    /// The scene at a time in seconds.
+    ///
+    /// # Errors
+    /// As those of [`load`].
+    pub fn at(&self, time_s: f64) -> Result<LoadedScene, SceneError> {
+        self.flatten(time_s).map_err(|failure| failure.of(&self.path))
+    }
+
+    fn flatten(&self, time_s: f64) -> Result<LoadedScene, Failure> {
+        let Self { document, buffers, materials, textures, animation, .. } = self;
+        let mut warnings = Warnings(self.warnings.clone());
+        let motion = animation.as_ref().map(|animation| (animation, time_s));
+        let look = (&materials[..], &textures[..]);
+        let mut distributions = self.distributions.lock().unwrap_or_else(PoisonError::into_inner);
+        let nodes::Flat { triangles, colors, tangents, objects, nodes, parents, lights, light_names } =
+            nodes::flatten(
+                (document, motion),
+                buffers,
+                look,
+                &mut distributions,
+                self.max_triangles,
+                &mut warnings,
+            )?;
+        let shared: Arc<[Texture]> = textures.iter().cloned().collect();
+        let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
+        let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
+        let animation = animation.clone().map(|animation| Arc::new(animation.in_tree(&parents, nodes)));
+        Ok(LoadedScene {
+            geometry,
+            materials: materials.clone(),
+            textures: textures.clone(),
+            objects,
+            lights,
+            light_names,
+            time_s,
+            animation,
+            extras: nodes::scene_extras(document),
+            warnings: warnings.0,
+        })
+    }
+}
+
+impl LoadedScene {
+    /// What moves the points of an object from where they are in this scene to where they are at another time: world from
+    /// world. `None` if the object stands still.
+    #[must_use]
+    pub fn motion(&self, object: u32, time_s: f64) -> Option<DMat4> {
+        let animation = self.animation.as_ref().filter(|animation| animation.moves(object))?;
+        let (now, then) =
+            (animation.world_from_object(object, self.time_s), animation.world_from_object(object, time_s));
+        (now != then).then(|| then * now.inverse())
+    }
 }

@@ -4,6 +4,7 @@ use super::accessor::Buffers;
 use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
 use super::{SceneObject, Warnings, lights};
+use crate::animation::Animation;
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
 use crate::lamp::{LightNames, PunctualLights};
@@ -26,6 +27,10 @@ pub(super) struct Flat {
     pub(super) colors: CornerValues,
     pub(super) tangents: CornerValues,
     pub(super) objects: Vec<SceneObject>,
+    /// Node of each object.
+    pub(super) nodes: Vec<usize>,
+    /// The node above each node; none of those of the scene itself, and of those that are not in it.
+    pub(super) parents: Vec<Option<usize>>,
     pub(super) lights: PunctualLights,
     pub(super) light_names: LightNames,
 }
@@ -39,16 +44,24 @@ struct Inherited {
 }
 
 /// The default scene, or the first.
-pub(super) fn default_scene(document: &Document) -> Option<gltf::Scene<'_>> {
+fn default_scene(document: &Document) -> Option<gltf::Scene<'_>> {
     document.default_scene().or_else(|| document.scenes().next())
 }
 
-/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one.
+/// `extras` of that scene; null if it has none.
+pub(super) fn scene_extras(document: &Document) -> serde_json::Value {
+    let scene = default_scene(document);
+    let extras = scene.as_ref().and_then(|scene| scene.extras().as_ref());
+    extras.and_then(|extras| serde_json::from_str(extras.get()).ok()).unwrap_or_default()
+}
+
+/// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
+/// everything is where it is at the time.
 pub(super) fn flatten(
-    document: &Document,
+    (document, motion): (&Document, Option<(&Animation, f64)>),
     buffers: &Buffers,
     (materials, textures): (&[Material], &[Texture]),
-    distributions: &mut Distributions<'_>,
+    distributions: &mut Distributions,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
@@ -64,6 +77,7 @@ pub(super) fn flatten(
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
+    flat.parents = vec![None; seen.len()];
     while let Some((node, above)) = open.pop() {
         let name = node_name(&node);
         let place = || format!("node `{name}`");
@@ -77,8 +91,12 @@ pub(super) fn flatten(
             let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
             text(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
         };
+        let local = match motion {
+            Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
+            None => local_transform(&node),
+        };
         let here = Inherited {
-            world: above.world * local_transform(&node).map_err(|e| e.at(place))?,
+            world: above.world * local.map_err(|e| e.at(place))?,
             class: label("class", &above.class),
             instance: label("instance", &above.instance),
         };
@@ -99,6 +117,7 @@ pub(super) fn flatten(
                 }
             };
             let object = flat.objects.len() as u32;
+            flat.nodes.push(node.index());
             let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
             flat.objects.push(SceneObject {
                 name: name.clone(),
@@ -115,6 +134,9 @@ pub(super) fn flatten(
                     .map_err(|e| e.at(place))?;
             }
         }
+        for child in node.children() {
+            flat.parents[child.index()] = Some(node.index());
+        }
         let first_child = open.len();
         open.extend(node.children().map(|child| (child, here.clone())));
         open[first_child..].reverse();
@@ -125,7 +147,7 @@ pub(super) fn flatten(
     Ok(flat)
 }
 
-fn node_name(node: &Node<'_>) -> String {
+pub(super) fn node_name(node: &Node<'_>) -> String {
     let of_mesh = || node.mesh().and_then(|mesh| mesh.name().map(str::to_owned));
     node.name().map(str::to_owned).or_else(of_mesh).unwrap_or_else(|| format!("node {}", node.index()))
 }
@@ -142,7 +164,7 @@ fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
 }
 
 /// A node's own matrix, in f64.
-fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
+pub(super) fn local_transform(node: &Node<'_>) -> Result<DMat4, SceneErrorKind> {
     let matrix = match node.transform() {
         Transform::Matrix { matrix } => {
             DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))

@@ -1,5 +1,6 @@
 //! What the loader makes of well-formed files.
 
+mod animations;
 #[path = "../common/mod.rs"]
 mod common;
 mod distributions;
