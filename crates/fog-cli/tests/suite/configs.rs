@@ -82,4 +82,9 @@ fn robustness_runs() {
     assert!(frame.get("aviation").is_none());
     let night = record(dir.path(), "robustness", 23, &["scene.length_m=80"]);
     assert_eq!(night["lighting"]["preset"], "night_street");
+    // The names of the preset are those of the made scene.
+    let sets = ["scene.length_m=80", "sweep=~", "lighting=headlamps"];
+    let counts = record(dir.path(), "robustness", 0, &sets)["lighting"]["lights_in_group"].clone();
+    let count = |group: &str| counts[group].as_u64().unwrap_or(0);
+    assert!(count("vehicles") >= 4, "{counts}");
 }
