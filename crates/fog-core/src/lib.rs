@@ -29,4 +29,4 @@ mod shared_words;
 pub mod spectrum;
 pub mod warp;
 
-pub use glam::{DMat4, DVec3, Mat4, Quat, Vec2, Vec3, Vec3A};
+pub use glam::{DMat3, DMat4, DQuat, DVec3, Mat4, Quat, Vec2, Vec3, Vec3A};

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::header::{FORMAT, FORMAT_VERSION, Header};
 use crate::marker::{Check, FileEntry, Marker};
-use crate::names::{CONFIG, HEADER, Kind, PLAN};
+use crate::names::{CLASSES, CONFIG, HEADER, Kind, PLAN};
 use crate::opening::{self, Opening};
 use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan, read_header};
 
@@ -25,6 +25,8 @@ pub struct DataSetInfo<'a> {
     pub code_digest: &'a str,
     /// All frames in order, also when this process renders only some.
     pub plan: Vec<PlanFrame>,
+    /// Content of `classes.json`, where frames have classes.
+    pub classes: Option<&'a Value>,
     /// Anything else for `dataset.json`, deterministic.
     pub details: &'a Value,
 }
@@ -104,7 +106,9 @@ impl DataSet {
     ) -> Result<Self> {
         plan::check(&info.plan)?;
         let lines = plan::to_lines(&info.plan, dir)?;
-        let header = header_of(&info, &lines);
+        let mut texts = vec![(CONFIG, info.config_yaml.as_bytes().to_vec()), (PLAN, lines.into_bytes())];
+        texts.extend(info.classes.map(|classes| (CLASSES, encode::pretty(classes))));
+        let header = header_of(&info, &texts);
 
         fs::create_dir_all(dir).map_err(Error::io("create", dir))?;
         atomic::remove_abandoned(dir)?;
@@ -118,10 +122,9 @@ impl DataSet {
         }
 
         // A process that was killed after claiming the folder may have left these out.
-        let texts = [info.config_yaml, &lines];
-        for (entry, text) in found.files.iter().zip(texts) {
+        for (entry, (_, text)) in found.files.iter().zip(&texts) {
             if entry.fault(dir, Check::Hash).is_some() {
-                atomic::write(dir, &entry.name, text.as_bytes())?;
+                atomic::write(dir, &entry.name, text)?;
             }
         }
         atomic::sync_dir(dir)?;
@@ -302,7 +305,7 @@ fn difference(dir: &Path, found: Header, ours: Header, differ: &dyn Fn(&str) -> 
     Error::PlanDiffers { dir }
 }
 
-fn header_of(info: &DataSetInfo<'_>, lines: &str) -> Header {
+fn header_of(info: &DataSetInfo<'_>, texts: &[(&str, Vec<u8>)]) -> Header {
     Header {
         format: FORMAT.to_owned(),
         format_version: FORMAT_VERSION,
@@ -311,10 +314,7 @@ fn header_of(info: &DataSetInfo<'_>, lines: &str) -> Header {
         config_digest: info.config_digest.to_owned(),
         extends: Vec::new(),
         code_digest: info.code_digest.to_owned(),
-        files: vec![
-            FileEntry::of(CONFIG.to_owned(), info.config_yaml.as_bytes()),
-            FileEntry::of(PLAN.to_owned(), lines.as_bytes()),
-        ],
+        files: texts.iter().map(|(name, text)| FileEntry::of((*name).to_owned(), text)).collect(),
         details: info.details.clone(),
     }
 }

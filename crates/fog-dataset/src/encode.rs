@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fog_film::Channels;
+use fog_film::{Channels, Frame};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Value, json};
@@ -10,6 +10,9 @@ use serde_json::{Value, json};
 use crate::exr_file::{Picture, encode};
 use crate::names::Kind;
 use crate::{Attribute, Error, FrameFiles, OutputSet, Result, layers};
+
+/// Why a file cannot be made.
+const NOT_GIVEN: &str = "the frame's outputs ask for it, but it was not given";
 
 /// Bytes of one hashed file; `path` is only for messages.
 pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, path: &Path) -> Result<Vec<u8>> {
@@ -19,7 +22,27 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
             png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path)
         }
         Kind::Hdr => radiance(files, layers::radiance(files.frame, outputs), path),
-        Kind::Truth => encode(picture(files, layers::truth(files.frame, outputs), false), path),
+        Kind::Truth => {
+            let channels = layers::truth(files.frame, outputs);
+            if channels.iter().any(|(_, values)| values.is_empty()) {
+                return Err(Error::picture("encode", path)(NOT_GIVEN));
+            }
+            encode(picture(files, channels, false), path)
+        }
+        Kind::Semantic => {
+            let frame = files.frame;
+            grey(frame, &frame.truth.surface.semantic, ExtendedColorType::L8, path)
+        }
+        Kind::Instance => {
+            let frame = files.frame;
+            let bytes: Vec<u8> =
+                frame.truth.surface.instance.iter().flat_map(|id| id.to_ne_bytes()).collect();
+            grey(frame, &bytes, ExtendedColorType::L16, path)
+        }
+        Kind::Objects => match files.objects {
+            Some(objects) => Ok(pretty(objects)),
+            None => Err(Error::picture("encode", path)(NOT_GIVEN)),
+        },
         _ => Ok(pretty(files.record)),
     }
 }
@@ -38,9 +61,21 @@ pub(crate) fn pretty(value: &Value) -> Vec<u8> {
 
 /// An 8-bit RGB PNG; `path` is only for messages.
 pub(crate) fn png(width: u32, height: u32, bytes: &[u8], path: &Path) -> Result<Vec<u8>> {
+    pixels(width, height, bytes, ExtendedColorType::Rgb8, path)
+}
+
+/// A PNG of one channel of whole numbers; `bytes` are in the machine's order.
+fn grey(frame: &Frame, bytes: &[u8], kind: ExtendedColorType, path: &Path) -> Result<Vec<u8>> {
+    if bytes.is_empty() {
+        return Err(Error::picture("encode", path)(NOT_GIVEN));
+    }
+    pixels(frame.width, frame.height, bytes, kind, path)
+}
+
+fn pixels(width: u32, height: u32, bytes: &[u8], kind: ExtendedColorType, path: &Path) -> Result<Vec<u8>> {
     let mut out = Vec::new();
     PngEncoder::new_with_quality(&mut out, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(bytes, width, height, ExtendedColorType::Rgb8)
+        .write_image(bytes, width, height, kind)
         .map_err(Error::picture("encode", path))?;
     Ok(out)
 }

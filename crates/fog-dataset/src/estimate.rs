@@ -6,7 +6,7 @@ use crate::OutputSet;
 ///
 /// Bytes per pixel are what RGB test frames of walls and ground at 16 samples took (tests in `tests/suite/sizes.rs`),
 /// rounded up: noisy radiance in f32 hardly compresses, truth channels do where surfaces are even, equal counts of samples
-/// to nearly nothing. Mono frames take less.
+/// to nearly nothing, as do normals and colours of even surfaces; textured and curved ones take more. Mono frames take less.
 #[must_use]
 pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet, groups: usize) -> u64 {
     let per_pixel = [
@@ -22,6 +22,12 @@ pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet, groups: usize
         (outputs.distance, 3.4),
         (outputs.transmittance, 10.0),
         (outputs.tau, 3.4),
+        (outputs.normals, 0.3),
+        (outputs.position, 6.0),
+        (outputs.albedo, 0.3),
+        (outputs.semantic, 0.03),
+        (outputs.instance, 0.03),
+        (outputs.flow, 5.0),
     ];
     let wanted: f64 = per_pixel.iter().filter(|(wanted, _)| *wanted).map(|(_, bytes)| bytes).sum();
     // Record, timings, marker and file headers.

@@ -22,6 +22,8 @@ pub struct FrameFiles<'a> {
     pub exposure: f32,
     /// The picture without its noise, where the frame's outputs ask for it.
     pub denoised: Option<&'a DenoisedPicture>,
+    /// Records of the things in the picture, where the frame's outputs ask for them.
+    pub objects: Option<&'a Value>,
     /// Seconds that the frame took; go to `<id>.timing.json` only.
     pub seconds: f64,
     /// Custom attributes for the EXR files (camera pose, intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`

@@ -32,7 +32,7 @@ pub struct Header {
     pub extends: Vec<String>,
     /// Digest of the code.
     pub code_digest: String,
-    /// `config.resolved.yaml` and `plan.jsonl` with their hashes.
+    /// `config.resolved.yaml`, `plan.jsonl` and, where frames have classes, `classes.json`, with their hashes.
     pub files: Vec<FileEntry>,
     /// What the caller tells about the data set.
     pub details: Value,

@@ -12,6 +12,10 @@ pub(crate) fn write(dir: &Path, plan: &[PlanFrame], states: &[FrameState]) -> Re
     atomic::write(dir, INDEX, text(plan, states).as_bytes())
 }
 
+/// A column for each of [`Kind::HASHED`].
+const FILE_COLUMNS: [&str; 7] =
+    ["image_file", "hdr_file", "gt_file", "record_file", "semantic_file", "instance_file", "objects_file"];
+
 fn text(plan: &[PlanFrame], states: &[FrameState]) -> String {
     let mut axes: Vec<&str> = Vec::new();
     for name in plan.iter().flat_map(|frame| frame.axes.keys()) {
@@ -21,7 +25,7 @@ fn text(plan: &[PlanFrame], states: &[FrameState]) -> String {
     }
     let mut out = String::new();
     let head = ["index", "id", "status", "pair_id"].into_iter().chain(axes.iter().copied());
-    line(&mut out, head.chain(["image_file", "hdr_file", "gt_file", "record_file"]).map(str::to_owned));
+    line(&mut out, head.chain(FILE_COLUMNS).map(str::to_owned));
     for (i, (frame, state)) in plan.iter().zip(states).enumerate() {
         let pair = frame.pair_id.clone().unwrap_or_default();
         let start = [i.to_string(), frame.id.clone(), state.name().to_owned(), pair];
@@ -81,9 +85,10 @@ mod tests {
         ];
         assert_eq!(
             text(&plan, &[FrameState::Done, FrameState::Missing]),
-            "index,id,status,pair_id,fog,camera.altitude_m,lighting,image_file,hdr_file,gt_file,record_file\n\
-             0,a,done,p,none,2,,a.rgb.png,,a.gt.exr,a.json\n\
-             1,b,missing,p,\"{\"\"model\"\":\"\"advection\"\",\"\"height_m\"\":100}\",,\"d\"\"ay\",,,,\n"
+            "index,id,status,pair_id,fog,camera.altitude_m,lighting,image_file,hdr_file,gt_file,record_file,\
+             semantic_file,instance_file,objects_file\n\
+             0,a,done,p,none,2,,a.rgb.png,,a.gt.exr,a.json,,,\n\
+             1,b,missing,p,\"{\"\"model\"\":\"\"advection\"\",\"\"height_m\"\":100}\",,\"d\"\"ay\",,,,,,,\n"
         );
     }
 }

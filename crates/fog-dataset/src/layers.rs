@@ -59,7 +59,32 @@ pub(crate) fn truth(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)
     if outputs.tau {
         out.push(("tau.Y".to_owned(), truth.tau.clone()));
     }
+    let surface = &truth.surface;
+    if outputs.normals {
+        out.extend(vectors("N", ["X", "Y", "Z"], &surface.normal));
+    }
+    if outputs.position {
+        out.extend(vectors("P", ["X", "Y", "Z"], &surface.position));
+    }
+    if outputs.albedo {
+        out.extend(vectors("albedo", ["R", "G", "B"], &surface.albedo));
+    }
+    if outputs.flow {
+        out.extend(vectors("flow", ["X", "Y"], &surface.flow));
+        out.push(("flow_valid.Y".to_owned(), surface.flow_valid.clone()));
+    }
     out
+}
+
+/// A channel for each component.
+fn vectors<const N: usize>(
+    layer: &str,
+    names: [&str; N],
+    values: &[[f32; N]],
+) -> impl Iterator<Item = (String, Vec<f32>)> {
+    let plane = |(c, name): (usize, &str)| (format!("{layer}.{name}"), values.iter().map(|v| v[c]).collect());
+    let planes: Vec<_> = names.into_iter().enumerate().map(plane).collect();
+    planes.into_iter()
 }
 
 /// Channels R, G, B of a quantity, or Y of a mono frame, behind a layer's prefix.

@@ -7,10 +7,13 @@
 //! |---|---|
 //! | `dataset.json` | format, digests, hashes of the next two, and what the caller tells; claims the folder |
 //! | `config.resolved.yaml` | the configuration with every default written out |
+//! | `classes.json` | the classes by number, where frames have any |
 //! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
 //! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
 //! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
-//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y` |
+//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y`; `N.X/Y/Z` (`normals`), `P.X/Y/Z` (`position`), `albedo.R/G/B`, `flow.X/Y` and `flow_valid.Y` where asked for |
+//! | `<id>.semantic.png`, `<id>.instance.png` | class (8 bits) and instance (16 bits) of each pixel |
+//! | `<id>.objects.json` | records of the things in the picture |
 //! | `<id>.json` | the frame's record |
 //! | `<id>.denoised.exr`, `.denoised.png` | a guess at the radiance without its noise (`denoised`), and its sRGB picture |
 //! | `<id>.denoised.json` | what guessed it, and the hashes of these two |

@@ -3,6 +3,7 @@
 use crate::{Error, OutputSet, Result};
 
 pub(crate) const HEADER: &str = "dataset.json";
+pub(crate) const CLASSES: &str = "classes.json";
 pub(crate) const CONFIG: &str = "config.resolved.yaml";
 pub(crate) const PLAN: &str = "plan.jsonl";
 pub(crate) const INDEX: &str = "index.csv";
@@ -14,6 +15,9 @@ pub(crate) enum Kind {
     Hdr,
     Truth,
     Record,
+    Semantic,
+    Instance,
+    Objects,
     Denoised,
     DenoisedImage,
     Denoising,
@@ -24,7 +28,8 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kinds that hold the frame and are hashed, in the order in which they are written.
-    pub(crate) const HASHED: [Self; 4] = [Self::Image, Self::Hdr, Self::Truth, Self::Record];
+    pub(crate) const HASHED: [Self; 7] =
+        [Self::Image, Self::Hdr, Self::Truth, Self::Record, Self::Semantic, Self::Instance, Self::Objects];
 
     /// The kinds that depend on more than the frame: on a library and the processor. Of two pictures and their record,
     /// which has their hashes, the record is written last.
@@ -43,6 +48,9 @@ impl Kind {
             Self::Hdr => "hdr.exr",
             Self::Truth => "gt.exr",
             Self::Record => "json",
+            Self::Semantic => "semantic.png",
+            Self::Instance => "instance.png",
+            Self::Objects => "objects.json",
             Self::Denoised => "denoised.exr",
             Self::DenoisedImage => "denoised.png",
             Self::Denoising => "denoised.json",
@@ -59,6 +67,9 @@ impl Kind {
             Self::Image => outputs.image,
             Self::Hdr => outputs.wants_hdr_file(),
             Self::Truth => outputs.wants_truth_file(),
+            Self::Semantic => outputs.semantic,
+            Self::Instance => outputs.instance,
+            Self::Objects => outputs.objects,
             _ => true,
         }
     }
@@ -76,8 +87,11 @@ pub(crate) fn check_id(id: &str) -> Result<()> {
     if !id.as_bytes()[0].is_ascii_alphanumeric() {
         return bad("it must begin with a letter or digit");
     }
-    if id == "dataset" || [".timing", ".failed", ".denoised"].iter().any(|taken| id.ends_with(taken)) {
-        return bad("`dataset` and names ending in `.timing`, `.failed` or `.denoised` are taken");
+    let taken_ends = [".timing", ".failed", ".denoised", ".objects"];
+    if ["dataset", "classes"].contains(&id) || taken_ends.iter().any(|taken| id.ends_with(taken)) {
+        return bad(
+            "`dataset`, `classes` and names ending in `.timing`, `.failed`, `.denoised` or `.objects` are taken",
+        );
     }
     Ok(())
 }
@@ -102,6 +116,8 @@ mod tests {
             "a.timing",
             "a.failed",
             "a.denoised",
+            "a.objects",
+            "classes",
             "ä",
             "a b",
             &long,

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::header::Header;
-use crate::names::{HEADER, INDEX, Kind};
+use crate::names::{CLASSES, HEADER, INDEX, Kind};
 use crate::{Error, PlanFrame, Result, atomic, encode, plan};
 
 /// How a folder is opened that may hold a data set.
@@ -29,6 +29,7 @@ pub(crate) fn replace(dir: &Path, ours: Header) -> Result<Header> {
         }
     }
     atomic::remove(&dir.join(INDEX))?;
+    atomic::remove(&dir.join(CLASSES))?;
     // Until now it is the old data set with fewer frames, from now on the new one with none.
     write(dir, ours)
 }

@@ -32,11 +32,25 @@ pub struct OutputSet {
     pub groups: bool,
     /// Estimate of the radiance without its noise.
     pub denoised: bool,
+    /// Normals in the world.
+    pub normals: bool,
+    /// Positions in the world.
+    pub position: bool,
+    /// Base colour of the first surface.
+    pub albedo: bool,
+    /// Class of the first surface.
+    pub semantic: bool,
+    /// Instance of the first surface.
+    pub instance: bool,
+    /// Optical flow to the next frame of a path.
+    pub flow: bool,
+    /// Records of the things in the picture.
+    pub objects: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; 19] = [
         "image",
         "hdr",
         "depth",
@@ -49,6 +63,13 @@ impl OutputSet {
         "samples",
         "groups",
         "denoised",
+        "normals",
+        "position",
+        "albedo",
+        "semantic",
+        "instance",
+        "flow",
+        "objects",
     ];
 
     /// Every output.
@@ -91,7 +112,15 @@ impl OutputSet {
     /// Whether a `.gt.exr` belongs to the frame.
     #[must_use]
     pub fn wants_truth_file(self) -> bool {
-        self.depth || self.distance || self.transmittance || self.tau
+        let fog = self.transmittance || self.tau;
+        let surface = self.normals || self.position || self.albedo || self.flow;
+        self.depth || self.distance || fog || surface
+    }
+
+    /// Whether the frame has classes or instances.
+    #[must_use]
+    pub fn wants_labels(self) -> bool {
+        self.semantic || self.instance || self.objects
     }
 
     fn flag(&mut self, name: &str) -> Option<&mut bool> {
@@ -108,6 +137,13 @@ impl OutputSet {
             "samples" => &mut self.samples,
             "groups" => &mut self.groups,
             "denoised" => &mut self.denoised,
+            "normals" => &mut self.normals,
+            "position" => &mut self.position,
+            "albedo" => &mut self.albedo,
+            "semantic" => &mut self.semantic,
+            "instance" => &mut self.instance,
+            "flow" => &mut self.flow,
+            "objects" => &mut self.objects,
             _ => return None,
         })
     }

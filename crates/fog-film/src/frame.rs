@@ -2,7 +2,7 @@
 
 use fog_core::colour::{Rgb, luminance};
 
-use crate::{Films, FrameError, PixelFilm, srgb8};
+use crate::{Films, FrameError, PixelFilm, SurfaceTruth, srgb8};
 
 /// What the three values of a pixel mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub struct Truth {
     pub transmittance: Vec<Rgb>,
     /// Optical depth of the same path at 550 nm.
     pub tau: Vec<f32>,
+    /// What the first surface is, as far as it was asked for.
+    pub surface: SurfaceTruth,
 }
 
 /// The light of a group of lights.
@@ -158,6 +160,7 @@ impl Frame {
         ]
         .into_iter()
         .chain(self.groups.iter().map(|g| ("groups", g.radiance.len())))
+        .chain(self.truth.surface.lengths().into_iter().filter(|(_, length)| *length > 0))
         {
             if found != expected {
                 return Err(FrameError::Shape { channel, width, height, expected, found });
@@ -243,6 +246,7 @@ mod tests {
             distance_m: vec![f32::INFINITY; n],
             transmittance: vec![[0.5; 3]; n],
             tau: vec![0.7; n],
+            surface: SurfaceTruth::default(),
         }
     }
 

@@ -14,6 +14,7 @@ mod frame;
 mod noise;
 mod picture;
 mod pixel;
+mod surface_truth;
 
 pub use colour_map::magma;
 pub use compare::{CompareError, Comparison, DeltaE, ZScores, compare, psnr_db};
@@ -24,3 +25,4 @@ pub use frame::{Channels, Frame, GroupLayer, PointLight, Truth};
 pub use noise::{PixelNoise, noise_floor, relative_error};
 pub use picture::{Picture, Scale, srgb8};
 pub use pixel::PixelFilm;
+pub use surface_truth::SurfaceTruth;

@@ -71,6 +71,7 @@ mod tests {
             distance_m: vec![1.0; 3],
             transmittance: vec![[1.0; 3]; 3],
             tau: vec![0.0; 3],
+            ..Truth::default()
         };
         let mono = Channels::Mono { wavelength_nm: 550.0 };
         let frame = Frame::from_pixels(3, 1, mono, &pixels, truth).expect("valid frame");

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{
     droplets::{DropletsSpec, VerticalSpec},
+    labels::LabelsSpec,
     lens::{IntrinsicsSpec, LensSpec, ShutterSpec},
     light_groups::{LightGroupSpec, is_one},
     patchiness::PatchinessSpec,
@@ -58,6 +59,9 @@ pub struct FrameSpec {
     pub lighting: LightingSpec,
     /// Sampling.
     pub render: RenderSpec,
+    /// What surfaces are called, and which things count as detectable. Not written where it is the default.
+    #[serde(skip_serializing_if = "LabelsSpec::is_default")]
+    pub labels: LabelsSpec,
     /// What is written, in the order of [`Output`], each once.
     pub outputs: Vec<Output>,
     /// What the configuration says about the runway of the record; left out where it says nothing.
@@ -420,4 +424,18 @@ pub enum Output {
     Samples,
     /// An estimate of `Hdr`, which is then there too, without its noise.
     Denoised,
+    /// Unit normals in the world.
+    Normals,
+    /// Positions in the world, in metres.
+    Position,
+    /// Base colour of the first surface.
+    Albedo,
+    /// Class of the first surface.
+    Semantic,
+    /// Instance of the first surface.
+    Instance,
+    /// Optical flow to the next frame of the path.
+    Flow,
+    /// Records of the things in the picture.
+    Objects,
 }

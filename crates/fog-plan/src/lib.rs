@@ -21,6 +21,7 @@ mod fog_sources;
 mod frame;
 mod identity;
 mod include;
+mod labels;
 mod layout;
 mod lens;
 mod light_groups;
@@ -54,6 +55,7 @@ pub use frame::{
     CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
     Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
+pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
 pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};
 pub use light_groups::{LightGroupSpec, LightsSpec};
 pub use load::{load, parse};

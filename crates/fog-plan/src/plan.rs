@@ -189,6 +189,7 @@ impl Plan {
             sensor,
             lighting,
             render,
+            labels,
             outputs,
             runway,
         } = content;
@@ -208,6 +209,7 @@ impl Plan {
             sensor,
             lighting,
             render,
+            labels,
             outputs,
             runway,
         })
@@ -257,11 +259,12 @@ impl Plan {
     #[must_use]
     pub fn config_digest(&self) -> String {
         let mut json = self.resolved_json();
-        // The order of axes is the order of frames: keep it through the sorting of keys.
-        if let Some(axes) = json.pointer_mut("/sweep/axes") {
+        // The order of axes is the order of frames, that of classes their numbers: keep them through the sorting of keys.
+        for ordered in ["/sweep/axes", "/classes"] {
+            let Some(map) = json.pointer_mut(ordered) else { continue };
             let pairs =
-                axes.as_object().map(|map| map.iter().map(|(k, v)| serde_json::json!([k, v])).collect());
-            *axes = pairs.unwrap_or_default();
+                map.as_object().map(|map| map.iter().map(|(k, v)| serde_json::json!([k, v])).collect());
+            *map = pairs.unwrap_or_default();
         }
         hash(&json).to_hex().to_string()
     }
@@ -295,9 +298,9 @@ impl Plan {
 impl Node {
     /// Top-level keys in the order of the schema.
     pub(crate) fn sort_sections(&mut self) {
-        const ORDER: [&str; 14] = [
+        const ORDER: [&str; 16] = [
             "version", "name", "seed", "scene", "fog", "camera", "path", "cameras", "sensor", "lighting",
-            "render", "outputs", "runway", "sweep",
+            "render", "classes", "labels", "outputs", "runway", "sweep",
         ];
         if let Value::Map(entries) = &mut self.value {
             entries.sort_by_key(|entry| ORDER.iter().position(|key| *key == entry.key));

@@ -125,5 +125,7 @@ pub(crate) const BACKGROUND_CD_M2: Range = Range::closed(0.0, 1e6);
 pub(crate) const WAVELENGTH_NM: Range = Range::closed(380.0, 780.0);
 pub(crate) const SAMPLES: Range = Range::closed(1.0, 1_000_000.0);
 pub(crate) const NOISE: Range = Range::above(0.0, 1.0);
+pub(crate) const CONTRAST: Range = Range::closed(0.001, 1.0);
+pub(crate) const MIN_PIXELS: Range = Range::closed(1.0, 1_000_000.0);
 pub(crate) const MAX_DEPTH: Range = Range::closed(1.0, 1_000_000.0);
 pub(crate) const COUNT: Range = Range::closed(1.0, 100_000_000.0);

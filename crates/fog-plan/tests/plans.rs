@@ -403,3 +403,26 @@ fn intensities_of_groups_are_axes() {
     let intensities: Vec<_> = frames(&plan).iter().map(|f| f.lighting.groups[0].intensity).collect();
     assert_eq!(intensities, [0.5, 1.0]);
 }
+
+#[test]
+fn labels_are_written_only_where_something_is_said() {
+    let frame = |lines: &str| {
+        let text = format!("version: 1\nname: t\nscene: none\nfog: none\n{lines}");
+        let plan = fog_plan::parse(&text, "t.yaml", &[]).unwrap();
+        (plan.config_digest(), plan.frames().next().unwrap().unwrap())
+    };
+    let (plain_config, plain) = frame("");
+    assert!(serde_json::to_value(&plain).unwrap().get("labels").is_none());
+    let (_, same) = frame("labels: {min_pixels: 10}\n");
+    assert_eq!(plain.id, same.id);
+    let (one_config, one) = frame("classes: {car: \"car_*\", road: [\"road*\", {material: \"asphalt*\"}]}\n");
+    let labels = serde_json::to_value(&one).unwrap()["labels"].clone();
+    let classes = serde_json::json!([{"class": "car", "patterns": ["car_*"]},
+        {"class": "road", "patterns": ["road*", "material:asphalt*"]}]);
+    assert_eq!(labels, serde_json::json!({ "classes": classes }));
+    // The order of classes is that of their numbers.
+    let (other_config, other) =
+        frame("classes: {road: [\"road*\", {material: \"asphalt*\"}], car: \"car_*\"}\n");
+    assert!(one.id != plain.id && one.id != other.id);
+    assert!(one_config != plain_config && one_config != other_config);
+}

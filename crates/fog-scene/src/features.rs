@@ -18,6 +18,16 @@ impl Scene {
     /// Features of a hit seen along `direction`. Glass has those of the pane, black backs are black.
     #[must_use]
     pub fn features(&self, hit: &Hit, direction: Vec3A) -> Features {
+        let base = self.base_features(hit, direction);
+        let emission =
+            if self.emitters().is_empty() { [0.0; 3] } else { self.emission_towards(hit, direction).0 };
+        let albedo = [0, 1, 2].map(|c: usize| base.albedo[c].max(emission[c].clamp(0.0, 1.0)));
+        Features { albedo, ..base }
+    }
+
+    /// The same without the light that the surface emits: the albedo is the base colour alone.
+    #[must_use]
+    pub fn base_features(&self, hit: &Hit, direction: Vec3A) -> Features {
         let loaded = self.loaded();
         let point = loaded.geometry.surface(hit);
         let material = &loaded.materials[point.material as usize];
@@ -30,9 +40,7 @@ impl Scene {
         if let Some(color) = loaded.geometry.colors().at(hit) {
             values = values.tinted(color);
         }
-        let emission =
-            if self.emitters().is_empty() { [0.0; 3] } else { self.emission_towards(hit, direction).0 };
-        let albedo = [0, 1, 2].map(|c: usize| values.base_color[c].max(emission[c]).clamp(0.0, 1.0));
+        let albedo = [0, 1, 2].map(|c: usize| values.base_color[c].clamp(0.0, 1.0));
         Features { albedo, normal }
     }
 }

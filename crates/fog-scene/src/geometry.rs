@@ -46,6 +46,22 @@ impl Geometry {
         Self { colors, tangents, ..self }
     }
 
+    /// Some of the triangles, in the order given, with their colours: for rays that are to meet nothing else.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    #[must_use]
+    pub fn part(&self, triangles: &[u32]) -> Self {
+        let copies = triangles.iter().map(|&triangle| self.triangles[triangle as usize]).collect();
+        let mut colors = CornerValues::default();
+        for (&triangle, own) in triangles.iter().zip(0u32..) {
+            if let Some(corners) = self.colors.corners(triangle) {
+                colors.push(own, *corners);
+            }
+        }
+        Self::new(copies, self.opacities.clone()).with_attributes(colors, CornerValues::default())
+    }
+
     /// Nearest hit at 0 < t < `t_max`, t in lengths of `direction` (which need not be of unit length). Of several at one
     /// t the lowest triangle: the answer does not depend on the shape of the hierarchy. Cut-out texels are passed, and
     /// those of blended materials that cover less than half; glass is hit.

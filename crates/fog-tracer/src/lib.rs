@@ -6,10 +6,12 @@
 mod analog;
 mod equiangular;
 pub mod features;
+pub mod flow;
 mod groups;
 mod layer_light;
 mod lights;
 mod lobe;
+pub mod objects;
 pub mod path;
 pub mod render;
 pub mod render_shared;
@@ -18,5 +20,9 @@ mod rounds;
 pub mod seen_lamps;
 pub mod settings;
 mod shared;
+pub mod surface_truth;
 pub mod truth;
 pub mod watch;
+
+#[cfg(test)]
+mod truth_tests;

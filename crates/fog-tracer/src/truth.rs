@@ -4,7 +4,7 @@
 //! cover at least half, cut-out ones where they are solid.
 
 use fog_core::math;
-use fog_film::Truth;
+use fog_film::{SurfaceTruth, Truth};
 use fog_scene::camera::Camera;
 use fog_scene::scene::Scene;
 use rayon::prelude::*;
@@ -41,6 +41,7 @@ pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Trut
         distance_m: rows.iter().map(|r| r.distance).collect(),
         transmittance: rows.iter().map(|r| r.transmittance).collect(),
         tau: rows.iter().map(|r| r.tau).collect(),
+        surface: SurfaceTruth::default(),
     }
 }
 

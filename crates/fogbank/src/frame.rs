@@ -5,13 +5,15 @@ use crate::denoise;
 use crate::error::Error;
 use crate::exposure;
 use crate::fog::Fog;
+use crate::labels;
 use crate::lighting::{DistantLights, distant_lights, light_groups};
+use crate::objects::objects_json;
 use crate::record::record;
 use crate::resources::Resources;
 use fog_core::Vec3A;
 use fog_dataset::DenoisedPicture;
 use fog_film::Frame;
-use fog_plan::{CameraSpec, FrameSpec, SensorSpec, StopSpec};
+use fog_plan::{CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose, Shutter};
 use fog_scene::scene::Scene;
 use fog_tracer::render::Work;
@@ -30,6 +32,8 @@ pub struct Rendered {
     pub exposure: f64,
     /// The picture without its noise, if the frame asks for it.
     pub denoised: Option<DenoisedPicture>,
+    /// Records of the things in the picture, if the frame asks for them.
+    pub objects: Option<serde_json::Value>,
 }
 
 /// Camera of a frame.
@@ -130,10 +134,12 @@ pub(crate) fn finish(
     spec: &FrameSpec,
     resources: &Resources,
     (scene, fog): (&Scene, Option<&Fog>),
-    frame: Frame,
+    mut frame: Frame,
     config_digest: &str,
 ) -> Result<Rendered, Error> {
     let camera = camera(spec);
+    let labels = labels::labels(spec, scene)?;
+    frame.truth.surface = labels::surfaces(spec, scene, &camera, labels.as_ref(), resources)?;
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     let exposure = exposure::factor(spec, &frame);
     exposure::write(spec, exposure, &mut record);
@@ -153,5 +159,7 @@ pub(crate) fn finish(
     let denoised = denoiser
         .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
         .transpose()?;
-    Ok(Rendered { frame, record, camera, exposure, denoised })
+    let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
+    let objects = objects.map(|labels| objects_json(spec, scene, &camera, &labels, &frame, None));
+    Ok(Rendered { frame, record, camera, exposure, denoised, objects })
 }

@@ -9,7 +9,7 @@ use crate::selection::Selection;
 use crate::tracker::Tracker;
 use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
-use crate::{CODE_DIGEST, camera_record, changed_files, frame};
+use crate::{CODE_DIGEST, camera_record, changed_files, frame, labels};
 use fog_dataset::{
     Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
 };
@@ -89,6 +89,7 @@ fn prepare(
     }
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
+    warn_of_unknown_classes(selected.iter().map(|&i| &frames[i]), resources, progress);
     refuse_if_nothing_works(selected.iter().map(|&i| &frames[i]), resources)?;
 
     // 2. The data set: new, or the same one begun earlier.
@@ -204,6 +205,22 @@ fn warn_of_unknown_lights<'f>(
     }
 }
 
+/// Says once for each scene what is odd about its classes.
+fn warn_of_unknown_classes<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut seen = BTreeSet::new();
+    for frame in frames.filter(|frame| labels::are_wanted(frame)) {
+        if seen.insert(frame.scene.as_ref().map(|scene| scene.source.to_string())) {
+            for text in labels::complaints(frame, resources) {
+                progress.event(Event::Warning(text));
+            }
+        }
+    }
+}
+
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
@@ -244,12 +261,14 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Resu
         "mode": plan.mode(),
     });
     let config_yaml = plan.resolved_yaml();
+    let classes = labels::classes_json(frames);
     let info = DataSetInfo {
         name: plan.name(),
         config_yaml: &config_yaml,
         config_digest: &plan.config_digest(),
         code_digest: CODE_DIGEST,
         plan: plan_frames,
+        classes: classes.as_ref(),
         details: &details,
     };
     let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
@@ -272,6 +291,7 @@ pub(crate) fn store(
         frame: &rendered.frame,
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
+        objects: rendered.objects.as_ref(),
         exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,

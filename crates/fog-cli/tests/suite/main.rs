@@ -14,6 +14,7 @@ mod failures;
 mod figures;
 mod fit;
 mod groups;
+mod labels;
 mod lamps;
 mod mie;
 mod mistakes;

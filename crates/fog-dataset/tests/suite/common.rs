@@ -7,7 +7,7 @@ use std::path::Path;
 use fog_dataset::{
     Attribute, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening, OutputSet, PlanFrame, Result,
 };
-use fog_film::{Channels, Frame, GroupLayer, PixelFilm, Truth};
+use fog_film::{Channels, Frame, GroupLayer, PixelFilm, SurfaceTruth, Truth};
 use serde_json::{Map, Value, json};
 
 /// A deterministic number in [0, 1).
@@ -35,6 +35,7 @@ pub(crate) fn frame(width: u32, height: u32, channels: Channels, samples: u32) -
         truth.distance_m.push(distance);
         truth.transmittance.push([t, 0.99 * t, 0.98 * t]);
         truth.tau.push(0.05 * distance.min(1.0e4));
+        add_surface(&mut truth.surface, [below, slope, depth], ground < wall);
         let check = if (x / 8 + y / 8) % 2 == 0 { 0.8 } else { 0.2 };
         for _ in 0..samples {
             let direct = t * check * 2.0 * noise(&mut state);
@@ -56,6 +57,20 @@ pub(crate) fn frame(width: u32, height: u32, channels: Channels, samples: u32) -
     frame
 }
 
+/// What is at a pixel: ground or wall or sky, and how it moves as the camera goes on.
+fn add_surface(truth: &mut SurfaceTruth, [below, slope, depth]: [f32; 3], ground: bool) {
+    let sky = depth.is_infinite();
+    let normal = if ground { [0.0, 1.0, 0.0] } else { [-slope.signum(), 0.0, 0.0] };
+    truth.normal.push(if sky { [0.0; 3] } else { normal });
+    let position = [slope * depth, 2.0 - below * depth, -depth];
+    truth.position.push(if sky { [f32::NAN; 3] } else { position });
+    truth.albedo.push(if sky { [0.0; 3] } else { [0.4, 0.3, 0.2] });
+    truth.semantic.push(if sky { 23 } else { 7 + 4 * u8::from(!ground) });
+    truth.instance.push(if sky { 0 } else { 1 + 300 * u16::from(!ground) });
+    truth.flow.push(if sky { [0.0; 2] } else { [100.0 * slope / depth, 100.0 * below / depth] });
+    truth.flow_valid.push(f32::from(depth < 50.0));
+}
+
 /// One frame of a plan.
 pub(crate) fn planned(id: &str, outputs: OutputSet) -> PlanFrame {
     let mut axes = Map::new();
@@ -72,6 +87,7 @@ pub(crate) fn open_with(dir: &Path, config: &str, code: &str, plan: Vec<PlanFram
         config_digest: &digest,
         code_digest: code,
         plan,
+        classes: Some(&json!([{ "id": 7, "name": "road" }])),
         details: &json!({ "title": "a test" }),
     };
     DataSet::create_or_open(dir, info, Opening::Resume, &|old| {
@@ -103,6 +119,7 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
     set.write_frame(&FrameFiles {
         id,
         denoised: Some(&denoised),
+        objects: Some(&json!({ "objects": [] })),
         frame,
         record: &json!({ "id": id, "samples": frame.samples[0] }),
         exposure: 1.25,

@@ -30,7 +30,7 @@ fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 11 + 6 + 6);
+    assert_eq!(s.channels.len(), 11 + 6 + 6 + 12);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
@@ -46,6 +46,19 @@ fn every_channel_comes_back_bit_by_bit() {
     same(&s, "depth.Z", |i| f.truth.depth_m[i]);
     same(&s, "distance.Z", |i| f.truth.distance_m[i]);
     same(&s, "tau.Y", |i| f.truth.tau[i]);
+    for (c, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        same(&s, &format!("N.{name}"), |i| f.truth.surface.normal[i][c]);
+        same(&s, &format!("P.{name}"), |i| f.truth.surface.position[i][c]);
+    }
+    same(&s, "albedo.G", |i| f.truth.surface.albedo[i][1]);
+    same(&s, "flow.Y", |i| f.truth.surface.flow[i][1]);
+    same(&s, "flow_valid.Y", |i| f.truth.surface.flow_valid[i]);
+    let labels = |kind: &str| image::open(dir.path().join(format!("f0.{kind}.png"))).expect("a PNG");
+    let (semantic, instance) = (labels("semantic"), labels("instance"));
+    assert_eq!(semantic.color(), image::ColorType::L8);
+    assert_eq!(semantic.into_luma8().into_raw(), f.truth.surface.semantic);
+    assert_eq!(instance.color(), image::ColorType::L16);
+    assert_eq!(instance.into_luma16().into_raw(), f.truth.surface.instance);
     let depth = &s.channels["depth.Z"];
     assert_eq!((depth.width, depth.height), (33, 17));
     assert_eq!(depth.values[0], f32::INFINITY, "sky, in row 0 at the top");
@@ -66,11 +79,23 @@ fn one_wavelength_has_one_channel() {
     assert_eq!(
         names,
         [
+            "N.X",
+            "N.Y",
+            "N.Z",
+            "P.X",
+            "P.Y",
+            "P.Z",
             "Y",
             "airlight.Y",
+            "albedo.B",
+            "albedo.G",
+            "albedo.R",
             "depth.Z",
             "direct.Y",
             "distance.Z",
+            "flow.X",
+            "flow.Y",
+            "flow_valid.Y",
             "group.lamps.Y",
             "group.rest.Y",
             "samples.Y",
@@ -143,7 +168,7 @@ fn two_runs_give_the_same_bytes() {
         contents(dir.path())
     };
     let first = run(1.0);
-    assert_eq!(first.len(), 4 + 2 * 8);
+    assert_eq!(first.len(), 5 + 2 * 11);
     for i in 0..8 {
         assert!(run(f64::from(i)) == first, "run {i} differs");
     }
@@ -165,7 +190,18 @@ fn marker_timing_and_headers_say_what_they_should() {
         .iter()
         .map(|f| f["name"].as_str().expect("a name"))
         .collect();
-    assert_eq!(names, ["f0.rgb.png", "f0.hdr.exr", "f0.gt.exr", "f0.json"]);
+    assert_eq!(
+        names,
+        [
+            "f0.rgb.png",
+            "f0.hdr.exr",
+            "f0.gt.exr",
+            "f0.json",
+            "f0.semantic.png",
+            "f0.instance.png",
+            "f0.objects.json"
+        ]
+    );
     let record = std::fs::read_to_string(dir.path().join("f0.json")).expect("a record");
     assert_eq!(record, "{\n  \"id\": \"f0\",\n  \"samples\": 4\n}\n");
 
@@ -173,4 +209,34 @@ fn marker_timing_and_headers_say_what_they_should() {
     assert_eq!((header.name.as_str(), header.frames), ("test", 1));
     assert_eq!(read_plan(dir.path()).expect("a plan"), set.plan());
     assert!(read_frame(dir.path(), "../f0").is_err());
+}
+
+#[test]
+fn classes_belong_to_the_data_set_and_layers_that_are_asked_for_must_be_there() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let set = open(dir.path(), 1);
+    let classes = dir.path().join("classes.json");
+    assert_eq!(read_json(&classes), json!([{ "id": 7, "name": "road" }]));
+    let mut f = frame(8, 6, Channels::Rgb, 2);
+    store(&set, "f0", &f).expect("written");
+    set.finish().expect("an index");
+    assert!(verify(dir.path()).expect("readable").is_complete());
+    std::fs::write(&classes, "[]").expect("written");
+    std::fs::write(dir.path().join("f0.instance.png"), "").expect("written");
+    let problems = verify(dir.path()).expect("readable").problems;
+    let files: Vec<_> = problems.iter().map(|p| p.file.as_str()).collect();
+    assert_eq!(files, ["classes.json", "f0.instance.png"]);
+    assert!(!set.is_done("f0"));
+    open(dir.path(), 1);
+    assert_eq!(read_json(&classes), json!([{ "id": 7, "name": "road" }]));
+
+    f.truth.surface.semantic.pop();
+    let e = store(&set, "f0", &f).expect_err("too short").to_string();
+    assert!(e.contains("semantic"), "{e}");
+    f.truth.surface.semantic.clear();
+    let e = store(&set, "f0", &f).expect_err("not there").to_string();
+    assert!(e.contains("f0.semantic.png") && e.contains("was not given"), "{e}");
+    f.truth.surface.normal.clear();
+    let e = store(&set, "f0", &f).expect_err("not there").to_string();
+    assert!(e.contains("f0.gt.exr") && e.contains("was not given"), "{e}");
 }

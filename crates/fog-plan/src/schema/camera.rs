@@ -165,6 +165,20 @@ pub(crate) enum OutputFile {
     Samples,
     /// A guess at `hdr` without its noise, by Open Image Denoise, in files of its own beside it; only where it is named.
     Denoised,
+    /// Normals in the world: interpolated vertex normals on the side that is seen; only where it is named.
+    Normals,
+    /// Positions in the world, in metres; only where it is named.
+    Position,
+    /// Linear base colour of the first surface; only where it is named.
+    Albedo,
+    /// Class of the first surface as a picture of 8-bit numbers; only where it is named.
+    Semantic,
+    /// Instance of the first surface as a picture of 16-bit numbers; only where it is named.
+    Instance,
+    /// Optical flow to the path's next pose, in pixels, with its validity; only where it is named.
+    Flow,
+    /// Boxes, occlusion, contrast and detectability of each thing in the picture; only where it is named.
+    Objects,
 }
 
 impl OutputFile {

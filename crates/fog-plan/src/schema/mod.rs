@@ -6,6 +6,7 @@ mod camera;
 mod droplets;
 mod exposure;
 mod fog;
+mod labels;
 mod lens;
 mod light;
 mod or_none;
@@ -26,6 +27,7 @@ pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile, ShareFil
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};
+pub(crate) use labels::{ClassesFile, LabelsFile, NameFile, NamesFile};
 pub(crate) use lens::{IntrinsicsFile, LensFile};
 pub(crate) use light::{
     EnvironmentFile, LUMINANCE_OF_ONE_CD_M2, LightGroupFile, LightingFile, LightingMap, Preset, SunFile,
@@ -80,6 +82,14 @@ pub(crate) struct ConfigFile {
     pub(crate) lighting: LightingFile,
     /// How the picture is computed.
     pub(crate) render: RenderFile,
+    /// Classes of surfaces by names of nodes, meshes (with all that is below such nodes) and materials; `*` in a name stands for
+    /// any text. The first class whose name fits counts, before any class that the scene file gives. Names other than those of
+    /// Cityscapes and of the made scenes become new classes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) classes: Option<ClassesFile>,
+    /// When a thing counts as detectable in the output `objects`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) labels: Option<LabelsFile>,
     /// What is written for each frame.
     #[schemars(extend("uniqueItems" = true), length(min = 1))]
     pub(crate) outputs: Outputs,
@@ -108,7 +118,7 @@ fn default_seed() -> u64 {
     DEFAULT_SEED
 }
 
-/// Names of the outputs; unless said otherwise all but `standard_error`, `samples` and `denoised`.
+/// Names of the outputs; unless said otherwise those up to `airlight`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(transparent)]
 pub(crate) struct Outputs(pub(crate) Vec<OutputFile>);

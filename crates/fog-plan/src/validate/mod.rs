@@ -4,6 +4,7 @@ mod approach;
 mod droplets;
 mod exposure;
 mod fog;
+mod labels;
 mod lens;
 mod light_groups;
 mod lighting;
@@ -28,6 +29,7 @@ use pose::View;
 use crate::{
     error::{Problem, Problems},
     frame::{CameraSpec, FogSpec, LightingSpec, Output, RenderSpec, SensorSpec},
+    labels::LabelsSpec,
     node::{Entry, Node, Value},
     path::{CsvFiles, Path, PathSpec},
     ranges::Range,
@@ -54,6 +56,8 @@ pub(crate) struct Content {
     pub(crate) sensor: SensorSpec,
     pub(crate) lighting: LightingSpec,
     pub(crate) render: RenderSpec,
+    #[serde(skip_serializing_if = "LabelsSpec::is_default")]
+    pub(crate) labels: LabelsSpec,
     pub(crate) outputs: Vec<Output>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) runway: Option<RunwaySpec>,
@@ -124,7 +128,8 @@ impl Check<'_> {
         let render = self.render(&file.render);
         let lighting = self.lighting(&file.lighting, file.render.wavelength_nm);
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
-        let outputs = self.outputs(&file.outputs);
+        let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
+        let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
         let runway = self.runway(file.runway.as_ref());
         let View { camera, rig, path, readout_end } = view?;
         let mut scene = scene?;
@@ -141,6 +146,7 @@ impl Check<'_> {
             sensor: sensor?,
             lighting: lighting?,
             render: render?,
+            labels: labels?,
             outputs: outputs?,
             runway: runway?,
         })

@@ -91,7 +91,7 @@ impl Check<'_> {
         Some(Some(StopSpec { noise: noise?, max_samples }))
     }
 
-    pub(super) fn outputs(&mut self, outputs: &Outputs) -> Option<Vec<Output>> {
+    pub(super) fn outputs(&mut self, outputs: &Outputs, on_path: bool) -> Option<Vec<Output>> {
         if outputs.0.is_empty() {
             self.problem("outputs", "empty; name at least one output");
             return None;
@@ -106,6 +106,12 @@ impl Check<'_> {
         let index = outputs.0.iter().position(|output| *output == OutputFile::Denoised);
         if let Some(index) = index.filter(|_| !outputs.0.contains(&OutputFile::Hdr)) {
             let message = "denoised is a guess from the output `hdr`, which is kept beside it: name hdr too";
+            self.problem(&format!("outputs.{index}"), message);
+            fine = false;
+        }
+        let index = outputs.0.iter().position(|output| *output == OutputFile::Flow);
+        if let Some(index) = index.filter(|_| !on_path) {
+            let message = "flow is the motion to the next pose of a path: give `path`";
             self.problem(&format!("outputs.{index}"), message);
             fine = false;
         }
@@ -128,5 +134,12 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::StandardError => Output::StandardError,
         OutputFile::Samples => Output::Samples,
         OutputFile::Denoised => Output::Denoised,
+        OutputFile::Normals => Output::Normals,
+        OutputFile::Position => Output::Position,
+        OutputFile::Albedo => Output::Albedo,
+        OutputFile::Semantic => Output::Semantic,
+        OutputFile::Instance => Output::Instance,
+        OutputFile::Flow => Output::Flow,
+        OutputFile::Objects => Output::Objects,
     }
 }

@@ -3,6 +3,7 @@
 use super::Warnings;
 use super::images::Images;
 use super::material_reader::{Reader, Slot};
+use super::nodes::text;
 use crate::error::Failure;
 use crate::material::{AlphaMode, Material, NormalMap};
 use crate::texture::Encoding;
@@ -18,7 +19,8 @@ pub(super) fn convert(
     let index = material.index().map_or_else(|| "default".into(), |i| i.to_string());
     let name = material.name().map_or_else(|| format!("material {index}"), str::to_owned);
     let mut reader = Reader { name: name.clone(), images };
-    let mut out = Material { name, double_sided: material.double_sided(), ..Material::default() };
+    let class = text(material.extras(), "class").as_deref().map(str::to_owned);
+    let mut out = Material { name, class, double_sided: material.double_sided(), ..Material::default() };
     out.alpha_mode = match material.alpha_mode() {
         gltf::material::AlphaMode::Opaque => AlphaMode::Opaque,
         gltf::material::AlphaMode::Mask => {

@@ -22,7 +22,7 @@ use crate::geometry::Geometry;
 use crate::lamp::{LightNames, PunctualLights};
 use crate::material::{Material, Opacity};
 use crate::texture::Texture;
-use fog_core::DMat4;
+use fog_core::{DMat4, DVec3};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -51,11 +51,33 @@ impl Default for Limits {
     }
 }
 
+/// A node, with a mesh or without.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneNode {
+    /// Its name, else that of its mesh, else `node N`.
+    pub name: String,
+    /// Index of the node that it hangs on; always less than its own.
+    pub parent: Option<u32>,
+    /// `extras.class` of the node or its mesh.
+    pub class: Option<String>,
+    /// `extras.instance` of the node or its mesh.
+    pub instance: Option<String>,
+    /// Named points in the node's own axes, in metres: those of `extras.keypoints` (a map of x, y, z), and the node's origin under
+    /// the name `extras.keypoint`.
+    pub keypoints: Vec<(String, DVec3)>,
+    /// World from the node's axes.
+    pub world: DMat4,
+}
+
 /// A node with a mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneObject {
+    /// Index of the node.
+    pub node: u32,
     /// Name of the node, else of its mesh, else `node N`.
     pub name: String,
+    /// Name of the mesh.
+    pub mesh: Option<String>,
     /// `extras.class` of the node, its mesh or its nearest ancestor that has one.
     pub class: Option<String>,
     /// `extras.instance`, found in the same way.
@@ -71,6 +93,8 @@ pub struct LoadedScene {
     pub materials: Vec<Material>,
     /// Textures; [`crate::TextureRef::texture`] is an index of them.
     pub textures: Vec<Texture>,
+    /// All nodes, depth first.
+    pub nodes: Vec<SceneNode>,
     /// Nodes with meshes; [`crate::Triangle::object`] is an index of them.
     pub objects: Vec<SceneObject>,
     /// Lights without extent, in cd and lx.
@@ -85,6 +109,26 @@ pub struct LoadedScene {
     pub animation: Option<Arc<Animation>>,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
+}
+
+impl LoadedScene {
+    /// Name of a node, or nothing if there is no such node.
+    #[must_use]
+    pub fn node_name(&self, node: u32) -> &str {
+        self.nodes.get(node as usize).map_or("", |node| &node.name)
+    }
+
+    /// `extras.instance` of a node, or of its nearest ancestor that has one.
+    #[must_use]
+    pub fn instance_name(&self, node: u32) -> Option<&str> {
+        let mut node = self.nodes.get(node as usize)?;
+        loop {
+            if let Some(name) = &node.instance {
+                return Some(name);
+            }
+            node = &self.nodes[node.parent? as usize];
+        }
+    }
 }
 
 /// Sentences without repetition, at most a hundred.
@@ -220,23 +264,34 @@ impl SceneFile {
         let motion = animation.as_ref().map(|animation| (animation, time_s));
         let look = (&materials[..], &textures[..]);
         let mut distributions = self.distributions.lock().unwrap_or_else(PoisonError::into_inner);
-        let nodes::Flat { triangles, colors, tangents, objects, nodes, parents, lights, light_names } =
-            nodes::flatten(
-                (document, motion),
-                buffers,
-                look,
-                &mut distributions,
-                self.max_triangles,
-                &mut warnings,
-            )?;
+        let nodes::Flat {
+            triangles,
+            colors,
+            tangents,
+            objects,
+            nodes,
+            object_nodes,
+            parents,
+            lights,
+            light_names,
+        } = nodes::flatten(
+            (document, motion),
+            buffers,
+            look,
+            &mut distributions,
+            self.max_triangles,
+            &mut warnings,
+        )?;
         let shared: Arc<[Texture]> = textures.iter().cloned().collect();
         let opacities = materials.iter().map(|material| Opacity::new(material, &shared)).collect();
         let geometry = Geometry::new(triangles, opacities).with_attributes(colors, tangents);
-        let animation = animation.clone().map(|animation| Arc::new(animation.in_tree(&parents, nodes)));
+        let animation =
+            animation.clone().map(|animation| Arc::new(animation.in_tree(&parents, object_nodes)));
         Ok(LoadedScene {
             geometry,
             materials: materials.clone(),
             textures: textures.clone(),
+            nodes,
             objects,
             lights,
             light_names,

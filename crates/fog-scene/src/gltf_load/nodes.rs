@@ -3,7 +3,7 @@
 use super::accessor::Buffers;
 use super::distributions::Distributions;
 use super::primitives::{self, Primitive, mesh_name};
-use super::{SceneObject, Warnings, lights};
+use super::{SceneNode, SceneObject, Warnings, lights};
 use crate::animation::Animation;
 use crate::attributes::CornerValues;
 use crate::error::{Failure, SceneErrorKind};
@@ -26,9 +26,10 @@ pub(super) struct Flat {
     pub(super) triangles: Vec<Triangle>,
     pub(super) colors: CornerValues,
     pub(super) tangents: CornerValues,
+    pub(super) nodes: Vec<SceneNode>,
     pub(super) objects: Vec<SceneObject>,
-    /// Node of each object.
-    pub(super) nodes: Vec<usize>,
+    /// glTF's index of each object's node.
+    pub(super) object_nodes: Vec<usize>,
     /// The node above each node; none of those of the scene itself, and of those that are not in it.
     pub(super) parents: Vec<Option<usize>>,
     pub(super) lights: PunctualLights,
@@ -38,6 +39,7 @@ pub(super) struct Flat {
 /// What a node hands down to its children.
 #[derive(Clone)]
 struct Inherited {
+    node: Option<u32>,
     world: DMat4,
     class: Option<Rc<str>>,
     instance: Option<Rc<str>>,
@@ -73,7 +75,7 @@ pub(super) fn flatten(
     let mut left = max_triangles;
     let mut degenerate = 0u64;
 
-    let root = Inherited { world: DMat4::IDENTITY, class: None, instance: None };
+    let root = Inherited { node: None, world: DMat4::IDENTITY, class: None, instance: None };
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
     open.reverse();
     let mut seen = vec![false; document.nodes().len()];
@@ -87,19 +89,30 @@ pub(super) fn flatten(
             return Err(SceneErrorKind::Node(text.into()).at(place));
         }
         let mesh = node.mesh();
-        let label = |key: &str, above: &Option<Rc<str>>| {
+        let label = |key: &str| {
             let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
-            text(node.extras(), key).or_else(of_mesh).or_else(|| above.clone())
+            text(node.extras(), key).or_else(of_mesh)
         };
+        let (class, instance) = (label("class"), label("instance"));
+        let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
         let local = match motion {
             Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
             None => local_transform(&node),
         };
         let here = Inherited {
+            node: Some(flat.nodes.len() as u32),
             world: above.world * local.map_err(|e| e.at(place))?,
-            class: label("class", &above.class),
-            instance: label("instance", &above.instance),
+            class: class.clone().or_else(|| above.class.clone()),
+            instance: instance.clone().or_else(|| above.instance.clone()),
         };
+        flat.nodes.push(SceneNode {
+            name: name.clone(),
+            parent: above.node,
+            class: owned(&class),
+            instance: owned(&instance),
+            keypoints: keypoints(node.extras()),
+            world: here.world,
+        });
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
             lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
@@ -117,10 +130,11 @@ pub(super) fn flatten(
                 }
             };
             let object = flat.objects.len() as u32;
-            flat.nodes.push(node.index());
-            let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
+            flat.object_nodes.push(node.index());
             flat.objects.push(SceneObject {
+                node: flat.nodes.len() as u32 - 1,
                 name: name.clone(),
+                mesh: mesh.name().map(str::to_owned),
                 class: owned(&here.class),
                 instance: owned(&here.instance),
             });
@@ -159,8 +173,21 @@ pub(super) fn extra(extras: &gltf::json::Extras, key: &str) -> Option<serde_json
 }
 
 /// A string in `extras`.
-fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
+pub(super) fn text(extras: &gltf::json::Extras, key: &str) -> Option<Rc<str>> {
     extra(extras, key)?.as_str().map(Rc::from)
+}
+
+/// Points in `extras` that are three finite numbers.
+fn keypoints(extras: &gltf::json::Extras) -> Vec<(String, DVec3)> {
+    let Some(extras) = extras.as_ref() else { return Vec::new() };
+    let Ok(extras) = serde_json::from_str::<serde_json::Value>(extras.get()) else { return Vec::new() };
+    let own = extras["keypoint"].as_str().map(|name| (name.to_owned(), DVec3::ZERO));
+    let listed = extras["keypoints"].as_object().into_iter().flatten().filter_map(|(name, point)| {
+        let [x, y, z] = point.as_array()?.as_slice() else { return None };
+        let point = DVec3::new(x.as_f64()?, y.as_f64()?, z.as_f64()?);
+        point.is_finite().then(|| (name.clone(), point))
+    });
+    own.into_iter().chain(listed).collect()
 }
 
 /// A node's own matrix, in f64.

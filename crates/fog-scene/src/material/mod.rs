@@ -49,6 +49,8 @@ pub struct NormalMap {
 pub struct Material {
     /// Name in the file, or `material N`.
     pub name: String,
+    /// `extras.class`: what surfaces of it are where their nodes do not say.
+    pub class: Option<String>,
     /// Linear reflectance and alpha, in [0, 1].
     pub base_color: [f32; 4],
     /// sRGB texture of `base_color`.
@@ -99,6 +101,7 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             name: "default".into(),
+            class: None,
             base_color: [1.0; 4],
             base_color_texture: None,
             metallic: 1.0,

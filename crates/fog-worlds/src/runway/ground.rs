@@ -44,7 +44,7 @@ pub(super) fn ground(glb: &mut Glb, options: &Runway, seed: u64) -> Result<(), W
     let mut slab = Model::default();
     paved(slab.part(asphalt), [-half, half], [0.0, options.length_m]);
     let shape = glb.shape("runway", &slab);
-    glb.node("runway", "runway", shape, place(0.0, 0.0, 0.0, 0.0));
+    glb.node_with("runway", "runway", shape, place(0.0, 0.0, 0.0, 0.0), keypoints(options));
 
     let mut ways = Model::default();
     let (left, right) = (TAXIWAY_ASIDE - 0.5 * TAXIWAY_WIDTH, TAXIWAY_ASIDE + 0.5 * TAXIWAY_WIDTH);
@@ -68,6 +68,17 @@ pub(super) fn ground(glb: &mut Glb, options: &Runway, seed: u64) -> Result<(), W
     land(glb, options, seed)?;
     tower(glb, options);
     Ok(())
+}
+
+/// Points of the runway by name, in metres: corners of the pavement, ends of the centre line, aiming point.
+fn keypoints(options: &Runway) -> serde_json::Map<String, serde_json::Value> {
+    let (half, length) = (0.5 * options.width_m, options.length_m);
+    let points = serde_json::json!({
+        "threshold_left": [-half, 0, 0], "threshold": [0, 0, 0], "threshold_right": [half, 0, 0],
+        "end_left": [-half, 0, -length], "end": [0, 0, -length], "end_right": [half, 0, -length],
+        "aiming_point": [0, 0, -super::markings::AIMING_POINT],
+    });
+    serde_json::Map::from_iter([("keypoints".to_owned(), points)])
 }
 
 /// A paved rectangle with its texture in metres, a skirt around it.

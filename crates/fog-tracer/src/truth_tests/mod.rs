@@ -1,0 +1,6 @@
+//! Truth of pixels and things against rays of their own.
+
+mod flow;
+mod objects;
+mod pixels;
+mod yard;
