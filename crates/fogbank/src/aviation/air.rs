@@ -15,6 +15,9 @@ use serde::Serialize;
 /// Least decision heights of CAT I and CAT II in m (ICAO Annex 6, Part I: 60 m or 200 ft, 30 m or 100 ft).
 const DECISION_HEIGHTS_M: [(&str, f64); 2] = [("CAT I", 60.0), ("CAT II", 30.0)];
 
+/// Where the threshold's markings are looked for, in m beyond it: they begin at 6 m, and lights stand before them.
+const MARKINGS_M: f64 = 20.0;
+
 /// What lies between the eye and what it looks at.
 #[derive(Clone, Copy)]
 pub struct Air<'a> {
@@ -98,7 +101,7 @@ pub(super) fn visual_range(
         transmittance_to_threshold: exp(-tau),
         threshold_markings_in_sight: position.along_track_m > 0.0
             && tau <= MOR_OPTICAL_DEPTH
-            && !(air.hidden)(eye, site.threshold()),
+            && !(air.hidden)(eye, site.threshold() + site.forward() * MARKINGS_M),
         ground_seen_ahead_m: ground_seen_ahead_m(site, eye, air),
     })
 }
