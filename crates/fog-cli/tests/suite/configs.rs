@@ -88,3 +88,15 @@ fn robustness_runs() {
     let count = |group: &str| counts[group].as_u64().unwrap_or(0);
     assert!(count("vehicles") >= 4, "{counts}");
 }
+
+#[test]
+fn dehazing_runs_in_pairs() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let [clear, foggy] = [0, 2].map(|i| record(dir.path(), "dehazing", i, &["scene.length_m=80"]));
+    assert_eq!(
+        (&clear["fog"]["model"], &foggy["fog"]["visibility"]["mor_m"]),
+        (&"none".into(), &120.0.into())
+    );
+    assert_eq!(clear["pair_id"], foggy["pair_id"]);
+    assert_eq!(clear["scene"], foggy["scene"]);
+}
