@@ -13,7 +13,8 @@ use fog_scene::ies::IesFile;
 use fog_scene::lamp::{Beam, Cone, Lamp, LampTree, Measured, Pattern, PunctualLights};
 use fog_scene::light_tree::Receiver;
 use fog_scene::medium::Medium;
-use fog_scene::phase::Phase;
+use fog_scene::phase::{Phase, PhaseView};
+use fog_scene::phase_angles::PhaseAngles;
 use fog_scene::scene::Scene;
 use fog_scene::{Geometry, LoadedScene, Triangle};
 use fog_tests::{chi_square, scenes};
@@ -259,11 +260,13 @@ fn choices_of_lamps_follow_their_probabilities() {
     let tree = LampTree::new(lamps);
     let direction = Vec3A::new(0.3, 0.05, -1.0).normalize();
     let origin = Vec3A::new(5.0, 2.0, 3.0);
+    let forward = PhaseAngles::new(&PhaseView::HenyeyGreenstein(HenyeyGreenstein::new(0.95).unwrap()));
     let receivers = [
         Receiver::Point(origin),
         Receiver::Point(Vec3A::new(-200.0, 30.0, 100.0)),
-        Receiver::Segment { origin, direction, enter: 0.0, exit: 70.0 },
-        Receiver::Segment { origin, direction: Vec3A::X, enter: 0.0, exit: f32::INFINITY },
+        Receiver::Segment { origin, direction, enter: 0.0, exit: 70.0, angles: None },
+        Receiver::Segment { origin, direction, enter: 0.0, exit: 70.0, angles: Some(&forward) },
+        Receiver::Segment { origin, direction: Vec3A::X, enter: 0.0, exit: f32::INFINITY, angles: None },
     ];
     for (k, receiver) in receivers.iter().enumerate() {
         let n = 200_000;

@@ -21,6 +21,7 @@ mod reciprocity;
 mod replay;
 mod samplers;
 mod seen_lamps;
+mod sensor;
 mod shared;
 mod sky;
 mod street;

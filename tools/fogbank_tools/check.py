@@ -40,7 +40,8 @@ def check_frame(frame: Frame) -> list[str]:
             x, y = (columns - k["cx_px"]) / k["fx_px"], (rows - k["cy_px"]) / k["fy_px"]
             want = distance / np.sqrt(1 + x * x + y * y)
             problems += _close("depth = distance * cos, relative", depth[seen] / want[seen], 1.0, 1e-4)
-    if frame.image is not None and "R" in c:
+    # The picture of a sensor has its noise.
+    if frame.image is not None and "R" in c and "raw" not in frame.record["sensor"]:
         linear = np.stack([c[x] for x in "RGB"], -1) * frame.record["sensor"]["exposure"]
         linear = np.clip(linear, 0, 1)
         srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)

@@ -8,6 +8,7 @@
 //! Sources: `tables/cie/README.md`.
 
 use crate::bands::{BAND_STEP_NM, BANDS, BandSpectrum};
+use crate::sensor_response::SensorResponse;
 use crate::spectrum::{LANES, Spectrum, Wavelengths};
 
 /// First wavelength of the visible range that is rendered, in nm.
@@ -16,8 +17,11 @@ pub const VISIBLE_MIN_NM: f32 = 380.0;
 pub const VISIBLE_MAX_NM: f32 = 780.0;
 /// Luminous efficacy in lm/W of radiation whose luminous efficiency is 1 (SI, with V(λ) of standard air).
 const EFFICACY_LM_W: f64 = 683.002;
-const STEP_NM: f32 = 5.0;
-const ROWS: usize = 81;
+pub(crate) const STEP_NM: f32 = 5.0;
+/// Rows of the tables over wavelength, 380 to 780 nm.
+pub(crate) const ROWS: usize = 81;
+/// Planck constant times speed of light in J m (SI).
+const PLANCK_LIGHT_J_M: f64 = 6.626_070_15e-34 * 299_792_458.0;
 
 const OBSERVER: &str = include_str!("../../../tables/cie/observer_d65_5nm.csv");
 const BASIS: &str = include_str!("../../../tables/cie/srgb_basis_5nm.csv");
@@ -33,6 +37,9 @@ pub struct Observer {
     d65: [f32; ROWS],
     /// Spectral radiance at 560 nm of D65 of 1 cd/m², in W m⁻² sr⁻¹ nm⁻¹.
     d65_of_one_cd_m2: f64,
+    /// Photons per m² of D65 of 1 lx s, each weighed with the luminous efficiency V(λ).
+    photopic_photons: f64,
+    sensor: Option<SensorResponse>,
 }
 
 /// Parses a CSV of numbers with one header line that is part of this program.
@@ -47,12 +54,12 @@ fn rows<const N: usize>(csv: &str) -> [[f64; N]; ROWS] {
 }
 
 /// Integral of a function that is linear between the 5 nm rows.
-fn integrate(values: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn integrate(values: impl Fn(usize) -> f64) -> f64 {
     (0..ROWS - 1).map(|i| 0.5 * f64::from(STEP_NM) * (values(i) + values(i + 1))).sum()
 }
 
 /// Inverse of a 3×3 matrix (rows), by cofactors.
-fn invert(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+pub(crate) fn invert(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let minor = |r: usize, c: usize| {
         let (r0, r1, c0, c1) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3);
         m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0]
@@ -91,6 +98,8 @@ impl Observer {
             basis: [[0.0; 3]; ROWS],
             d65: [0.0; ROWS],
             d65_of_one_cd_m2: 100.0 / (EFFICACY_LM_W * luminance),
+            photopic_photons: 0.0,
+            sensor: None,
         };
         for i in 0..ROWS {
             for p in 0..3 {
@@ -100,7 +109,38 @@ impl Observer {
             }
             this.d65[i] = (observer[i][4] / 100.0) as f32;
         }
+        this.photopic_photons = this.photons(|i| observer[i][2]);
         this
+    }
+
+    /// The same observer with a sensor beside it, whose three channels are recorded too.
+    #[must_use]
+    pub fn with_sensor(self, sensor: SensorResponse) -> Self {
+        Self { sensor: Some(sensor), ..self }
+    }
+
+    /// The sensor beside it.
+    #[inline]
+    #[must_use]
+    pub fn sensor(&self) -> Option<&SensorResponse> {
+        self.sensor.as_ref()
+    }
+
+    /// Photons per m² that D65 of 1 lx s brings, each weighed with the luminous efficiency V(λ).
+    #[must_use]
+    pub fn photopic_photons_per_lx_s(&self) -> f64 {
+        self.photopic_photons
+    }
+
+    /// Photons per m² of D65 of 1 lx s, weighed with `weights` by row: ∫ w(λ) S(λ) λ/(hc) dλ.
+    pub(crate) fn photons(&self, weights: impl Fn(usize) -> f64) -> f64 {
+        let at = |i: usize| weights(i) * f64::from(self.d65[i]) * f64::from(row_nm(i)) * 1e-9;
+        integrate(at) * self.d65_of_one_cd_m2 / PLANCK_LIGHT_J_M
+    }
+
+    /// A basis spectrum at a row.
+    pub(crate) fn basis_row(&self, i: usize) -> [f32; 3] {
+        self.basis[i]
     }
 
     #[inline]
@@ -128,13 +168,7 @@ impl Observer {
     /// What one lane of relative radiance 1 adds to linear sRGB: response × range / LANES.
     #[must_use]
     pub fn lane_response(&self, wavelengths: &Wavelengths) -> [Rgb; LANES] {
-        wavelengths.nm.map(|nm| {
-            let (i, t) = Self::locate(nm);
-            let k = (VISIBLE_MAX_NM - VISIBLE_MIN_NM) / LANES as f32;
-            core::array::from_fn(|c| {
-                (self.response[i][c] + (self.response[i + 1][c] - self.response[i][c]) * t) * k
-            })
-        })
+        lanes(&self.response, wavelengths)
     }
 
     /// The three basis spectra at the wavelengths of a path; the spectrum of colour (r, g, b) is r·\[0\] + g·\[1\] + b·\[2\].
@@ -182,17 +216,36 @@ impl Observer {
     /// Linear sRGB of a relative spectrum given as a function of wavelength (piecewise linear between the 5 nm rows).
     #[must_use]
     pub fn rgb_of(&self, spectrum: impl Fn(f32) -> f32) -> [f64; 3] {
-        let at = |i: usize| f64::from(spectrum(VISIBLE_MIN_NM + STEP_NM * i as f32));
-        core::array::from_fn(|c| {
-            (0..ROWS - 1)
-                .map(|i| {
-                    let (r0, r1) = (f64::from(self.response[i][c]), f64::from(self.response[i + 1][c]));
-                    let (s0, s1) = (at(i), at(i + 1));
-                    f64::from(STEP_NM) / 6.0 * (r0 * (2.0 * s0 + s1) + r1 * (s0 + 2.0 * s1))
-                })
-                .sum()
-        })
+        integral(&self.response, |i| f64::from(spectrum(row_nm(i))))
     }
+}
+
+/// Wavelength of a row in nm.
+pub(crate) fn row_nm(i: usize) -> f32 {
+    VISIBLE_MIN_NM + STEP_NM * i as f32
+}
+
+/// What one lane of relative radiance 1 adds to three channels with responses by row.
+#[inline]
+pub(crate) fn lanes(response: &[[f32; 3]; ROWS], wavelengths: &Wavelengths) -> [Rgb; LANES] {
+    wavelengths.nm.map(|nm| {
+        let (i, t) = Observer::locate(nm);
+        let k = (VISIBLE_MAX_NM - VISIBLE_MIN_NM) / LANES as f32;
+        core::array::from_fn(|c| (response[i][c] + (response[i + 1][c] - response[i][c]) * t) * k)
+    })
+}
+
+/// Integrals over wavelength of three responses times a spectrum, both linear between the rows.
+pub(crate) fn integral(response: &[[f32; 3]; ROWS], spectrum: impl Fn(usize) -> f64) -> [f64; 3] {
+    core::array::from_fn(|c| {
+        (0..ROWS - 1)
+            .map(|i| {
+                let (r0, r1) = (f64::from(response[i][c]), f64::from(response[i + 1][c]));
+                let (s0, s1) = (spectrum(i), spectrum(i + 1));
+                f64::from(STEP_NM) / 6.0 * (r0 * (2.0 * s0 + s1) + r1 * (s0 + 2.0 * s1))
+            })
+            .sum()
+    })
 }
 
 /// Value of a colour's spectrum at the lanes of a path.

@@ -24,6 +24,7 @@ pub mod phase_grid;
 mod phase_lookup;
 pub mod profile;
 pub mod random;
+pub mod sensor_response;
 mod separable;
 mod shared_words;
 pub mod spectrum;

@@ -33,6 +33,7 @@ forward! {
     cbrt(x) = cbrtf / cbrt: "Cube root.";
     erf(x) = erff / erf: "Error function.";
     ln_gamma(x) = lgammaf / lgamma: "Logarithm of the absolute value of the gamma function.";
+    bessel_j1(x) = j1f / j1: "Bessel function of the first kind, of order 1.";
     ln_1p(x) = log1pf / log1p: "Natural logarithm of 1 + x, exact for small x.";
 }
 

@@ -19,7 +19,10 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
     match kind {
         Kind::Image => {
             let frame = files.frame;
-            png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path)
+            match files.camera {
+                Some(camera) => png(frame.width, frame.height, &camera.srgb8, path),
+                None => png(frame.width, frame.height, &frame.to_srgb8(files.exposure), path),
+            }
         }
         Kind::Hdr => radiance(files, layers::radiance(files.frame, outputs), path),
         Kind::Truth => {
@@ -43,6 +46,22 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
             Some(objects) => Ok(pretty(objects)),
             None => Err(Error::picture("encode", path)(NOT_GIVEN)),
         },
+        Kind::Raw => {
+            let camera = files.camera.ok_or(NOT_GIVEN).map_err(Error::picture("encode", path))?;
+            let bytes: Vec<u8> = camera.raw.iter().flat_map(|v| v.to_ne_bytes()).collect();
+            grey(files.frame, &bytes, ExtendedColorType::L16, path)
+        }
+        Kind::Clear | Kind::ClearImage => {
+            let clear = files.clear.ok_or(NOT_GIVEN).map_err(Error::picture("encode", path))?;
+            let frame = &clear.frame;
+            if (frame.width, frame.height) != (files.frame.width, files.frame.height) {
+                return Err(Error::picture("encode", path)("it has not as many pixels as the frame"));
+            }
+            match kind {
+                Kind::Clear => radiance(files, layers::clear(frame, outputs), path),
+                _ => png(frame.width, frame.height, &clear.srgb8, path),
+            }
+        }
         _ => Ok(pretty(files.record)),
     }
 }

@@ -18,6 +18,8 @@ pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet, groups: usize
         (outputs.samples, 0.1),
         (outputs.groups, 12.0 * groups as f64),
         (outputs.denoised, 14.0),
+        (outputs.raw, 2.0),
+        (outputs.pair, 14.0),
         (outputs.depth, 2.5),
         (outputs.distance, 3.4),
         (outputs.transmittance, 10.0),

@@ -24,11 +24,33 @@ pub struct FrameFiles<'a> {
     pub denoised: Option<&'a DenoisedPicture>,
     /// Records of the things in the picture, where the frame's outputs ask for them.
     pub objects: Option<&'a Value>,
+    /// The pictures of the sensor, where the frame has one: its sRGB picture is then the developed one.
+    pub camera: Option<&'a CameraPicture>,
+    /// The same view in clear air, where the frame's outputs ask for it.
+    pub clear: Option<&'a ClearPicture>,
     /// Seconds that the frame took; go to `<id>.timing.json` only.
     pub seconds: f64,
     /// Custom attributes for the EXR files (camera pose, intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
     /// and `wavelength_nm` are set here and win.
     pub attributes: &'a BTreeMap<String, Attribute>,
+}
+
+/// What a frame's sensor gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CameraPicture {
+    /// One number per pixel, for `<id>.raw.png`.
+    pub raw: Vec<u16>,
+    /// The developed picture, three bytes of sRGB per pixel.
+    pub srgb8: Vec<u8>,
+}
+
+/// A frame's view in clear air.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClearPicture {
+    /// The frame without fog, of the same size and channels.
+    pub frame: Frame,
+    /// Its picture at the same exposure, three bytes of sRGB per pixel.
+    pub srgb8: Vec<u8>,
 }
 
 /// An estimate of a frame's radiance without its noise. It may depend on more than the frame: its files are no part of what

@@ -7,14 +7,26 @@ use serde_json::Value;
 use crate::names::{INDEX, Kind};
 use crate::{FrameState, PlanFrame, Result, atomic};
 
+/// Files that have a column, with its name.
+const COLUMNS: [(Kind, &str); 10] = [
+    (Kind::Image, "image_file"),
+    (Kind::Hdr, "hdr_file"),
+    (Kind::Truth, "gt_file"),
+    (Kind::Record, "record_file"),
+    (Kind::Semantic, "semantic_file"),
+    (Kind::Instance, "instance_file"),
+    (Kind::Objects, "objects_file"),
+    (Kind::Raw, "raw_file"),
+    (Kind::Clear, "clear_file"),
+    (Kind::ClearImage, "clear_image_file"),
+];
+/// Columns that are there even if no frame has such files.
+const ALWAYS: usize = 7;
+
 /// Writes the index: index, id, status, pair_id, one column per axis, and the names of the files of finished frames.
 pub(crate) fn write(dir: &Path, plan: &[PlanFrame], states: &[FrameState]) -> Result<()> {
     atomic::write(dir, INDEX, text(plan, states).as_bytes())
 }
-
-/// A column for each of [`Kind::HASHED`].
-const FILE_COLUMNS: [&str; 7] =
-    ["image_file", "hdr_file", "gt_file", "record_file", "semantic_file", "instance_file", "objects_file"];
 
 fn text(plan: &[PlanFrame], states: &[FrameState]) -> String {
     let mut axes: Vec<&str> = Vec::new();
@@ -25,12 +37,18 @@ fn text(plan: &[PlanFrame], states: &[FrameState]) -> String {
     }
     let mut out = String::new();
     let head = ["index", "id", "status", "pair_id"].into_iter().chain(axes.iter().copied());
-    line(&mut out, head.chain(FILE_COLUMNS).map(str::to_owned));
+    let columns: Vec<(Kind, &str)> = COLUMNS
+        .into_iter()
+        .enumerate()
+        .filter(|(i, (kind, _))| *i < ALWAYS || plan.iter().any(|frame| kind.wanted(frame.outputs)))
+        .map(|(_, column)| column)
+        .collect();
+    line(&mut out, head.chain(columns.iter().map(|(_, name)| *name)).map(str::to_owned));
     for (i, (frame, state)) in plan.iter().zip(states).enumerate() {
         let pair = frame.pair_id.clone().unwrap_or_default();
         let start = [i.to_string(), frame.id.clone(), state.name().to_owned(), pair];
         let values = axes.iter().map(|axis| frame.axes.get(*axis).map_or_else(String::new, plain));
-        let files = Kind::HASHED.into_iter().map(|kind| {
+        let files = columns.iter().map(|&(kind, _)| {
             let there = *state == FrameState::Done && kind.wanted(frame.outputs);
             if there { kind.file(&frame.id) } else { String::new() }
         });

@@ -38,6 +38,15 @@ pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f3
     out
 }
 
+/// Channels of `<id>.clear.exr`.
+pub(crate) fn clear(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {
+    let mut out = colour(frame, "", |i| frame.image(i));
+    if outputs.standard_error {
+        out.push((STANDARD_ERROR.to_owned(), frame.standard_error.clone()));
+    }
+    out
+}
+
 /// Channels of `<id>.denoised.exr`.
 pub(crate) fn denoised(frame: &Frame, rgb: &[Rgb]) -> Vec<(String, Vec<f32>)> {
     colour(frame, "", |i| rgb[i])

@@ -9,7 +9,9 @@
 //! | `config.resolved.yaml` | the configuration with every default written out |
 //! | `classes.json` | the classes by number, where frames have any |
 //! | `plan.jsonl` | one line per frame of the plan ([`PlanFrame`]) |
-//! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`) |
+//! | `<id>.rgb.png` | 8-bit sRGB, exposure in the record (output `image`); of a frame with a sensor developed from its raw picture |
+//! | `<id>.raw.png` | 16-bit grey: the numbers of the sensor's pixels (`raw`) |
+//! | `<id>.clear.exr`, `.clear.rgb.png` | the same view in clear air at the same exposure (`pair`): `R`, `G`, `B`, and its sRGB picture |
 //! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
 //! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y`; `N.X/Y/Z` (`normals`), `P.X/Y/Z` (`position`), `albedo.R/G/B`, `flow.X/Y` and `flow_valid.Y` where asked for |
 //! | `<id>.semantic.png`, `<id>.instance.png` | class (8 bits) and instance (16 bits) of each pixel |
@@ -53,7 +55,7 @@ pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
 pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
-pub use frame_files::{DenoisedPicture, FrameFiles};
+pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles};
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use merge::{Merged, merge};

@@ -14,6 +14,9 @@ pub(crate) enum Kind {
     Image,
     Hdr,
     Truth,
+    Raw,
+    Clear,
+    ClearImage,
     Record,
     Semantic,
     Instance,
@@ -28,8 +31,18 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kinds that hold the frame and are hashed, in the order in which they are written.
-    pub(crate) const HASHED: [Self; 7] =
-        [Self::Image, Self::Hdr, Self::Truth, Self::Record, Self::Semantic, Self::Instance, Self::Objects];
+    pub(crate) const HASHED: [Self; 10] = [
+        Self::Image,
+        Self::Hdr,
+        Self::Truth,
+        Self::Record,
+        Self::Semantic,
+        Self::Instance,
+        Self::Objects,
+        Self::Raw,
+        Self::Clear,
+        Self::ClearImage,
+    ];
 
     /// The kinds that depend on more than the frame: on a library and the processor. Of two pictures and their record,
     /// which has their hashes, the record is written last.
@@ -47,6 +60,9 @@ impl Kind {
             Self::Image => "rgb.png",
             Self::Hdr => "hdr.exr",
             Self::Truth => "gt.exr",
+            Self::Raw => "raw.png",
+            Self::Clear => "clear.exr",
+            Self::ClearImage => "clear.rgb.png",
             Self::Record => "json",
             Self::Semantic => "semantic.png",
             Self::Instance => "instance.png",
@@ -70,6 +86,8 @@ impl Kind {
             Self::Semantic => outputs.semantic,
             Self::Instance => outputs.instance,
             Self::Objects => outputs.objects,
+            Self::Raw => outputs.raw,
+            Self::Clear | Self::ClearImage => outputs.pair,
             _ => true,
         }
     }
@@ -87,10 +105,10 @@ pub(crate) fn check_id(id: &str) -> Result<()> {
     if !id.as_bytes()[0].is_ascii_alphanumeric() {
         return bad("it must begin with a letter or digit");
     }
-    let taken_ends = [".timing", ".failed", ".denoised", ".objects"];
+    let taken_ends = [".timing", ".failed", ".denoised", ".objects", ".clear"];
     if ["dataset", "classes"].contains(&id) || taken_ends.iter().any(|taken| id.ends_with(taken)) {
         return bad(
-            "`dataset`, `classes` and names ending in `.timing`, `.failed`, `.denoised` or `.objects` are taken",
+            "`dataset`, `classes` and names ending in `.timing`, `.failed`, `.denoised`, `.objects` or `.clear` are taken",
         );
     }
     Ok(())
@@ -118,6 +136,7 @@ mod tests {
             "a.denoised",
             "a.objects",
             "classes",
+            "a.clear",
             "ä",
             "a b",
             &long,

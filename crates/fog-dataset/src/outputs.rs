@@ -46,11 +46,15 @@ pub struct OutputSet {
     pub flow: bool,
     /// Records of the things in the picture.
     pub objects: bool,
+    /// Raw picture of the sensor.
+    pub raw: bool,
+    /// The same view in clear air.
+    pub pair: bool,
 }
 
 impl OutputSet {
     /// The names, in the order of the fields.
-    pub const NAMES: [&'static str; 19] = [
+    pub const NAMES: [&'static str; 21] = [
         "image",
         "hdr",
         "depth",
@@ -70,6 +74,8 @@ impl OutputSet {
         "instance",
         "flow",
         "objects",
+        "raw",
+        "pair",
     ];
 
     /// Every output.
@@ -144,6 +150,8 @@ impl OutputSet {
             "instance" => &mut self.instance,
             "flow" => &mut self.flow,
             "objects" => &mut self.objects,
+            "raw" => &mut self.raw,
+            "pair" => &mut self.pair,
             _ => return None,
         })
     }

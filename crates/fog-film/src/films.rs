@@ -14,7 +14,8 @@ pub struct Films {
 }
 
 impl Films {
-    /// Empty films of `count` pixels and `group_count` light groups, which may be 0.
+    /// Empty films of `count` pixels and `group_count` light groups (and one sum more for the channels of a sensor), which may
+    /// be 0.
     #[must_use]
     pub fn new(count: usize, group_count: usize) -> Self {
         let groups = vec![[0.0; 3]; count * group_count];
@@ -52,6 +53,11 @@ impl Films {
             self.pixels[i] = by.pixels[k];
             self.groups[i * n..(i + 1) * n].copy_from_slice(&by.groups[k * n..(k + 1) * n]);
         }
+    }
+
+    /// Number of sums of each pixel beside its film.
+    pub(crate) fn group_count(&self) -> usize {
+        self.group_count
     }
 
     /// Mean light of a group, pixel by pixel; 0 without samples.

@@ -49,6 +49,8 @@ pub struct PointLight {
     pub group: usize,
     /// Mean radiance that it adds to the pixel; of a frame of one wavelength, channel 0 holds it.
     pub radiance: Rgb,
+    /// What it adds to [`Frame::sensor`].
+    pub sensor: Rgb,
 }
 
 /// A rendered frame: row-major, row 0 at the top, every channel width × height long.
@@ -70,6 +72,9 @@ pub struct Frame {
     pub standard_error: Vec<f32>,
     /// The image once more, by groups of lights; they add up to it but for rounding. Empty where none were told apart.
     pub groups: Vec<GroupLayer>,
+    /// The image once more, as the red, green and blue pixels of a sensor see it, in units of what green ones get from D65
+    /// white of radiance 1. Empty where none was asked for.
+    pub sensor: Vec<Rgb>,
     /// Truth channels.
     pub truth: Truth,
 }
@@ -95,6 +100,7 @@ impl Frame {
             airlight: pixels.iter().map(PixelFilm::airlight).collect(),
             standard_error: pixels.iter().map(|p| p.luminance().standard_error() as f32).collect(),
             groups: Vec::new(),
+            sensor: Vec::new(),
             truth,
         };
         frame.check()?;
@@ -112,6 +118,18 @@ impl Frame {
         Ok(self)
     }
 
+    /// The frame with the channels of a sensor, if `films` has one sum more than there are groups.
+    ///
+    /// # Errors
+    /// As [`Frame::check`].
+    pub fn with_sensor(mut self, films: &Films) -> Result<Self, FrameError> {
+        if films.group_count() > self.groups.len() {
+            self.sensor = films.group(self.groups.len());
+        }
+        self.check()?;
+        Ok(self)
+    }
+
     /// The frame with light added to its direct light that is known without noise, and to the layers of its groups if it has
     /// any.
     ///
@@ -122,8 +140,11 @@ impl Frame {
     /// When there is no such pixel.
     pub fn with_points(mut self, points: &[PointLight]) -> Result<Self, FrameError> {
         let add = |sum: &mut Rgb, light: Rgb| (0..3).for_each(|c| sum[c] += light[c]);
-        for &PointLight { pixel, group, radiance } in points {
+        for &PointLight { pixel, group, radiance, sensor } in points {
             add(&mut self.direct[pixel], radiance);
+            if let Some(channels) = self.sensor.get_mut(pixel) {
+                add(channels, sensor);
+            }
             if let Some(layer) = self.groups.get_mut(group) {
                 add(&mut layer.radiance[pixel], radiance);
             }
@@ -161,6 +182,7 @@ impl Frame {
         .into_iter()
         .chain(self.groups.iter().map(|g| ("groups", g.radiance.len())))
         .chain(self.truth.surface.lengths().into_iter().filter(|(_, length)| *length > 0))
+        .chain((!self.sensor.is_empty()).then_some(("sensor", self.sensor.len())))
         {
             if found != expected {
                 return Err(FrameError::Shape { channel, width, height, expected, found });
@@ -171,7 +193,10 @@ impl Frame {
             return Err(FrameError::Unsampled { x, y });
         }
         let used = if matches!(self.channels, Channels::Rgb) { 3 } else { 1 };
-        let finite = |i: &usize| self.image(*i)[..used].iter().all(|v| v.is_finite());
+        let finite = |i: &usize| {
+            let sensor = self.sensor.get(*i).into_iter().flatten();
+            self.image(*i)[..used].iter().chain(sensor).all(|v| v.is_finite())
+        };
         match (0..expected).find(|i| !finite(i)) {
             Some(i) => {
                 let (x, y) = place(i);

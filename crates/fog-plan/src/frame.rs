@@ -15,7 +15,7 @@ use crate::{
     rig::RigSpec,
     runway::RunwaySpec,
     scene::SceneSpec,
-    sensor::ExposureSpec,
+    sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
     sky::{MoonSpec, SkySpec},
 };
@@ -268,7 +268,7 @@ pub struct CameraSpec {
 }
 
 /// Image plane and lens.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorSpec {
     /// Width in pixels, 1 to 16 384.
     pub width_px: u32,
@@ -292,6 +292,9 @@ pub struct SensorSpec {
     pub shutter: Option<ShutterSpec>,
     /// Factor on linear values before sRGB encoding, or where it comes from.
     pub exposure: ExposureSpec,
+    /// The sensor that `raw` and `image` are taken with. Absent, and then not written: the picture is ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<SensorModelSpec>,
 }
 
 /// Light sources of a frame.
@@ -438,4 +441,8 @@ pub enum Output {
     Flow,
     /// Records of the things in the picture.
     Objects,
+    /// The sensor's raw picture.
+    Raw,
+    /// The same view in clear air.
+    Pair,
 }

@@ -67,6 +67,6 @@ pub use rig::{PoseSpec, RigSpec};
 pub use runway::RunwaySpec;
 pub use scene::{ApproachSystem, SceneLimits, SceneSource, SceneSpec, SignStyle, WorldSpec};
 pub use schema::schema_json;
-pub use sensor::ExposureSpec;
+pub use sensor::{BayerSpec, ExposureSpec, PsfSpec, ResponseSpec, SensorModelSpec, VignettingSpec};
 pub use share::Share;
 pub use sky::{MoonSpec, SkyBrightness, SkySpec};

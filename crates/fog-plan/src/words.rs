@@ -37,7 +37,7 @@ fn edits(a: &str, b: &str) -> usize {
 
 /// Unit named by a key's suffix: symbol for values, and word for what is expected.
 pub(crate) fn unit_of(key: &str) -> Option<(&'static str, &'static str)> {
-    const UNITS: [(&str, &str, &str); 14] = [
+    const UNITS: [(&str, &str, &str); 16] = [
         ("_cd_m2", "cd/m²", "candela per square metre"),
         ("_1_m3", "1/m³", "per cubic metre"),
         ("_1_m", "1/m", "per metre"),
@@ -48,9 +48,11 @@ pub(crate) fn unit_of(key: &str) -> Option<(&'static str, &'static str)> {
         ("_um", "µm", "micrometres"),
         ("_lx", "lx", "lux"),
         ("_k", "K", "kelvins"),
+        ("_e_s", "e/s", "electrons per second"),
         ("_m_s", "m/s", "metres per second"),
         ("_s", "s", "seconds"),
         ("_hz", "Hz", "hertz"),
+        ("_e", "e", "electrons"),
         ("_du", "DU", "Dobson units"),
     ];
     UNITS.iter().find(|unit| key.ends_with(unit.0)).map(|unit| (unit.1, unit.2))

@@ -40,6 +40,7 @@ pub mod light_tree;
 pub mod medium;
 pub mod moon;
 pub mod phase;
+pub mod phase_angles;
 pub mod photometry;
 pub mod scene;
 pub mod sky_map;

@@ -4,6 +4,7 @@
 //! splitting: a node knows a sphere around its lights, the sum of their strengths and a cone around all directions that they
 //! shine in. Half a tree whose cone cannot reach the receiver is never chosen; of one light its own value counts.
 
+use crate::phase_angles::PhaseAngles;
 use fog_core::Vec3A;
 use fog_core::math;
 
@@ -85,7 +86,7 @@ enum Kind {
 
 /// What receives light.
 #[derive(Clone, Copy, Debug)]
-pub enum Receiver {
+pub enum Receiver<'a> {
     /// A point.
     Point(Vec3A),
     /// The points `origin + t · direction` (a unit vector) for t from `enter` to `exit`, which may be infinite.
@@ -98,6 +99,8 @@ pub enum Receiver {
         enter: f32,
         /// Distance of the last point.
         exit: f32,
+        /// How the points scatter light into the segment's direction; `None`: alike whatever the angle.
+        angles: Option<&'a PhaseAngles>,
     },
 }
 
@@ -145,7 +148,7 @@ impl<L: Light> LightTree<L> {
     }
     /// Chooses a light: its index and the probability of the choice. `None` if no light reaches the receiver.
     #[must_use]
-    pub fn choose(&self, receiver: &Receiver, mut pick: f64) -> Option<(usize, f32)> {
+    pub fn choose(&self, receiver: &Receiver<'_>, mut pick: f64) -> Option<(usize, f32)> {
         let mut index = 0;
         let mut probability = 1.0;
         loop {
@@ -169,7 +172,7 @@ impl<L: Light> LightTree<L> {
 
     /// Probability with which [`LightTree::choose`] finds this light.
     #[must_use]
-    pub fn probability(&self, light: usize, receiver: &Receiver) -> f32 {
+    pub fn probability(&self, light: usize, receiver: &Receiver<'_>) -> f32 {
         let mut turns = self.turns[light];
         let mut index = 0;
         let mut probability = 1.0;
@@ -189,7 +192,7 @@ impl<L: Light> LightTree<L> {
 
     /// Probability of the left child; `None` if neither reaches the receiver.
     #[inline]
-    fn left_share(&self, parent: usize, right: u32, receiver: &Receiver) -> Option<f32> {
+    fn left_share(&self, parent: usize, right: u32, receiver: &Receiver<'_>) -> Option<f32> {
         let a = self.importance(&self.nodes[parent + 1], receiver);
         let b = self.importance(&self.nodes[right as usize], receiver);
         let share = a / (a + b);
@@ -201,7 +204,7 @@ impl<L: Light> LightTree<L> {
     }
 
     #[inline]
-    fn importance(&self, node: &Node, receiver: &Receiver) -> f32 {
+    fn importance(&self, node: &Node, receiver: &Receiver<'_>) -> f32 {
         match *receiver {
             Receiver::Point(point) => {
                 let offset = point - node.centre;
@@ -212,14 +215,15 @@ impl<L: Light> LightTree<L> {
                 };
                 node.strength * share / squared.max(node.radius * node.radius).max(NEAREST_M2)
             }
-            // ∫ dt / d² along the segment, of the sphere's centre, not nearer than the sphere's edge.
-            Receiver::Segment { origin, direction, enter, exit } => {
+            // ∫ p(α) dt / d² along the segment, of the sphere's centre, not nearer than the sphere's edge.
+            Receiver::Segment { origin, direction, enter, exit, angles } => {
                 let offset = node.centre - origin;
                 let nearest = offset.dot(direction);
                 let from_line = (offset - direction * nearest).length();
                 let d = f64::from(from_line.max(node.radius).max(NEAREST_M2.sqrt()));
-                let angle = |t: f32| math::f64::atan2(f64::from(t - nearest), d);
-                let seen = ((angle(exit) - angle(enter)) / d) as f32;
+                let angle = |t: f32| math::f64::atan2(d, f64::from(nearest - t));
+                let shares = [enter, exit].map(|t| angles.map_or(angle(t), |p| p.below(angle(t))));
+                let seen = ((shares[1] - shares[0]) / d) as f32;
                 node.strength * seen.max(f32::MIN_POSITIVE)
             }
         }
@@ -393,7 +397,7 @@ mod tests {
                 let point = Vec3A::new(240.0 * (rng.uniform() - 0.5), 5.0, 240.0 * (rng.uniform() - 0.5));
                 let direction = warp::uniform_sphere(rng.uniform2());
                 let exit = if k % 4 == 0 { f32::INFINITY } else { 50.0 };
-                let segment = Receiver::Segment { origin: point, direction, enter: 1.0, exit };
+                let segment = Receiver::Segment { origin: point, direction, enter: 1.0, exit, angles: None };
                 for receiver in [Receiver::Point(point), segment] {
                     let all: Vec<f32> = (0..n as usize).map(|i| tree.probability(i, &receiver)).collect();
                     let sum: f32 = all.iter().sum();

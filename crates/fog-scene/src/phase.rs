@@ -175,6 +175,16 @@ impl PhaseView<'_> {
         }
     }
 
+    /// Number of rows ([`Scatterer::row`]); one where there is no table.
+    #[must_use]
+    pub fn row_count(&self) -> usize {
+        match self {
+            Self::HenyeyGreenstein(_) | Self::HgDraine(_) => 1,
+            Self::Table { view, .. } => view.zeta.len(),
+            Self::Droplets { view, .. } => view.diameters_um.len(),
+        }
+    }
+
     /// Weights of the lanes between the table's wavelengths.
     #[must_use]
     pub fn lanes(&self, wavelengths: &Wavelengths) -> LaneWeights {

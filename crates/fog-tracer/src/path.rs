@@ -31,6 +31,7 @@ use fog_scene::camera::Ray;
 use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
+use fog_scene::phase_angles::PhaseAngles;
 use fog_scene::scene::{Scene, Surface};
 use fog_scene::sky_map::SkyLanes;
 
@@ -60,6 +61,8 @@ pub struct PathTracer<'a> {
     reference_lanes: Option<ProfileLanes>,
     pub(crate) roulette_below: f32,
     layer_light: Option<LayerLight>,
+    /// Of the fog among lamps.
+    phase_angles: Option<PhaseAngles>,
 }
 
 /// What one path saw.
@@ -124,7 +127,19 @@ impl<'a> PathTracer<'a> {
         let roulette_below = if surrounded { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
         let lights = LightMix::new(scene);
         let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
-        Self { scene, medium, observer, lights, settings, reference_lanes, roulette_below, layer_light }
+        let among_lamps = medium.as_ref().filter(|_| lights.lamp_probability() > 0.0);
+        let phase_angles = among_lamps.map(|m| PhaseAngles::new(&m.phase));
+        Self {
+            scene,
+            medium,
+            observer,
+            lights,
+            settings,
+            reference_lanes,
+            roulette_below,
+            layer_light,
+            phase_angles,
+        }
     }
 
     /// Radiance along a camera ray. `first_flight`, uniform in [0, 1), decides where the first collision would be.

@@ -46,7 +46,7 @@ pub fn render(
     let tracer = PathTracer::new(scene, observer, *settings);
     let count = camera.width as usize * camera.height as usize;
     let groups = group_names(scene);
-    let mut films = [Films::new(count, groups.len())];
+    let mut films = [Films::new(count, groups.len() + usize::from(tracer.has_sensor()))];
     let pixel = |i, samples, films: &mut [Films], k| {
         let (film, groups) = films[0].pixel(k);
         tracer.pixel((camera, i), seed, samples, film, groups);
@@ -58,7 +58,7 @@ pub fn render(
     let truth = truth(scene, camera, settings.wavelength_nm);
     let frame = Frame::from_pixels(camera.width, camera.height, channels(settings), &films.pixels, truth)?;
     let lamps = seen_lamps(scene, camera, observer, settings.wavelength_nm);
-    frame.with_groups(groups, &films)?.with_points(&lamps).map(Some)
+    frame.with_groups(groups, &films)?.with_sensor(&films)?.with_points(&lamps).map(Some)
 }
 
 /// What the channels of the frames mean.
@@ -164,7 +164,8 @@ pub(crate) struct Start {
 }
 
 impl PathTracer<'_> {
-    /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order.
+    /// Adds samples of pixel `i` (row-major) to its film and to the sums of its light groups, in order. The last sum is that of
+    /// the sensor's channels if there is a sensor.
     fn pixel(
         &self,
         (camera, i): (&Camera, usize),
@@ -173,14 +174,22 @@ impl PathTracer<'_> {
         film: &mut PixelFilm,
         groups: &mut [[f64; 3]],
     ) {
+        let (groups, sensor) = groups.split_at_mut(groups.len() - usize::from(self.has_sensor()));
         let mut light = GroupLight::new(self.scene, groups.len(), 1);
         for sample in samples {
-            let Sample { direct, airlight } = if groups.is_empty() {
+            let Sample { direct, airlight } = if groups.is_empty() && sensor.is_empty() {
                 self.sample(camera, i, seed, sample)
             } else if let Some(mut start) = self.start(camera, i, seed, sample) {
                 light.clear();
-                let seen =
-                    self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light);
+                let seen = if groups.is_empty() {
+                    self.radiance(start.ray, &start.wavelengths, start.flight, &mut start.rng)
+                } else {
+                    self.watched(start.ray, &start.wavelengths, start.flight, &mut start.rng, &mut light)
+                };
+                if let Some(sum) = sensor.first_mut() {
+                    let channels = self.sensor_value(&start.wavelengths, &(seen.radiance + seen.glow));
+                    (0..3).for_each(|c| sum[c] += f64::from(channels[c]));
+                }
                 let response = self.response(&start.wavelengths);
                 for (sum, [direct, airlight]) in groups.iter_mut().zip(light.parts()) {
                     let rgb = film_value(response.as_ref(), &(direct + airlight));
@@ -232,6 +241,19 @@ impl PathTracer<'_> {
     #[inline]
     pub(crate) fn response(&self, wavelengths: &Wavelengths) -> Option<Response> {
         self.settings.wavelength_nm.is_none().then(|| self.observer.lane_response(wavelengths))
+    }
+
+    /// Whether a sensor's channels are recorded beside the observer's.
+    #[inline]
+    pub(crate) fn has_sensor(&self) -> bool {
+        self.settings.wavelength_nm.is_none() && self.observer.sensor().is_some()
+    }
+
+    /// What the sensor's channels get of a radiance; 0 without one.
+    #[inline]
+    pub(crate) fn sensor_value(&self, wavelengths: &Wavelengths, radiance: &Spectrum) -> Rgb {
+        let Some(sensor) = self.observer.sensor() else { return [0.0; 3] };
+        film_value(Some(&sensor.lane_response(wavelengths)), radiance)
     }
 }
 

@@ -50,7 +50,8 @@ pub fn render_shared(
         group_count: names.len().max(1),
     };
     let count = camera.width as usize * camera.height as usize;
-    let mut films = vec![Films::new(count, names.len()); variants.len()];
+    let sums = names.len() + usize::from(pass.tracer.base.has_sensor());
+    let mut films = vec![Films::new(count, sums); variants.len()];
     let pixel = |i, samples, films: &mut [Films], k| pass.pixel(i, samples, films, k);
     fill(&mut films, camera.width as usize, settings, &pixel, progress)?;
     let lamps = |scene: &Scene, variant: &Variant| {
@@ -58,6 +59,7 @@ pub fn render_shared(
         for light in &mut lamps {
             let factor = variant.factors.get(light.group).copied().unwrap_or(1.0);
             light.radiance = light.radiance.map(|c| c * factor);
+            light.sensor = light.sensor.map(|c| c * factor);
         }
         lamps
     };
@@ -70,6 +72,7 @@ pub fn render_shared(
         let (width, height) = (camera.width, camera.height);
         Frame::from_pixels(width, height, channels(settings), &films.pixels, truth)?
             .with_groups(names.clone(), films)?
+            .with_sensor(films)?
             .with_points(&lamps(&scene, variant))
     };
     Some(variants.iter().zip(&films).map(frame).collect())
@@ -89,10 +92,10 @@ impl Pass<'_> {
     fn pixel(&self, i: usize, samples: Range<u64>, films: &mut [Films], k: usize) {
         let (base, fogs) = (&self.tracer.base, self.tracer.fogs().max(1));
         let mut light = GroupLight::new(base.scene, self.group_count, fogs);
-        // Direct light and airlight by group and fog.
-        let mut sums = vec![[[0.0f64; 3]; 2]; self.group_count * fogs];
+        // Direct light and airlight by group and fog, and what a sensor gets of both.
+        let mut sums = vec![[[0.0f64; 3]; 3]; self.group_count * fogs];
         for sample in samples {
-            sums.fill([[0.0; 3]; 2]);
+            sums.fill([[0.0; 3]; 3]);
             for hero in 0..fogs {
                 // Paths of each fog are stratified among themselves.
                 let seed = if hero == 0 { self.seed } else { mix64(self.seed ^ hero as u64) };
@@ -110,6 +113,10 @@ impl Pass<'_> {
                         let rgb = film_value(response.as_ref(), &part);
                         (0..3).for_each(|c| sum[c] += f64::from(rgb[c]) / fogs as f64);
                     }
+                    if base.has_sensor() {
+                        let channels = base.sensor_value(waves, &(parts[0] + parts[1]));
+                        (0..3).for_each(|c| sums[2][c] += f64::from(channels[c]) / fogs as f64);
+                    }
                 }
             }
             for (variant, films) in self.variants.iter().zip(films.iter_mut()) {
@@ -119,9 +126,10 @@ impl Pass<'_> {
     }
 
     /// Adds one sample to the film of one frame.
-    fn add(&self, variant: &Variant, sums: &[[[f64; 3]; 2]], films: &mut Films, k: usize) {
+    fn add(&self, variant: &Variant, sums: &[[[f64; 3]; 3]], films: &mut Films, k: usize) {
         let fogs = sums.len() / self.group_count;
         let (film, groups) = films.pixel(k);
+        let (groups, sensor) = groups.split_at_mut(groups.len() - usize::from(self.tracer.base.has_sensor()));
         let mut value = [[0.0f64; 3]; 2];
         for g in 0..self.group_count {
             let factor = f64::from(variant.factors.get(g).copied().unwrap_or(1.0));
@@ -131,6 +139,9 @@ impl Pass<'_> {
                 value[1][c] += factor * parts[1][c];
                 if let Some(group) = groups.get_mut(g) {
                     group[c] += factor * (parts[0][c] + parts[1][c]);
+                }
+                if let Some(sum) = sensor.first_mut() {
+                    sum[c] += factor * parts[2][c];
                 }
             }
         }

@@ -52,8 +52,8 @@ pub fn seen_lamps(
             };
             let group = scene.light_group(LightSource::Lamp(i));
             let light = |(pixel, per_illuminance): (usize, f64)| {
-                let radiance = illuminance.map(|e| (e * per_illuminance) as f32);
-                PointLight { pixel, group, radiance }
+                let [radiance, sensor] = illuminance.map(|rgb| rgb.map(|e| (e * per_illuminance) as f32));
+                PointLight { pixel, group, radiance, sensor }
             };
             pixels.into_iter().map(light).collect()
         })
@@ -97,14 +97,15 @@ fn footprint(camera: &Camera, lamp: &Lamp) -> BTreeMap<usize, f64> {
     shares
 }
 
-/// Illuminance that a lamp gives the camera, in the units of relative radiance times sr; `None` if none of it arrives.
+/// Illuminance that a lamp gives the camera, in the units of relative radiance times sr, and in those of the channels of a
+/// sensor if the observer has one; `None` if none of it arrives.
 fn illuminance(
     scene: &Scene,
     camera: Vec3A,
     lamp: &Lamp,
     observer: &Observer,
     wavelength_nm: Option<f32>,
-) -> Option<[f64; 3]> {
+) -> Option<[[f64; 3]; 2]> {
     let offset = lamp.position - camera;
     let distance = offset.length();
     let direction = offset / distance;
@@ -119,17 +120,22 @@ fn illuminance(
     let ray = (camera, direction, f64::from(distance));
     let colour = |nm: f32| upsampled(lamp.intensity, observer, nm);
     let arriving = match wavelength_nm {
-        Some(nm) => [f64::from(colour(nm)) * transmittances(scene, ray, [f64::from(nm)])[0], 0.0, 0.0],
+        Some(nm) => {
+            let radiance = f64::from(colour(nm)) * transmittances(scene, ray, [f64::from(nm)])[0];
+            [[radiance, 0.0, 0.0], [0.0; 3]]
+        }
         None => {
             let row_nm = |i: usize| f64::from(VISIBLE_MIN_NM + STEP_NM * i as f32);
             let transmittances = transmittances::<ROWS>(scene, ray, core::array::from_fn(row_nm));
-            observer.rgb_of(|nm| {
+            let spectrum = |nm: f32| {
                 let row = ((nm - VISIBLE_MIN_NM) / STEP_NM).round() as usize;
                 colour(nm) * transmittances[row.min(ROWS - 1)] as f32
-            })
+            };
+            let sensor = observer.sensor().map(|sensor| sensor.channels_of(spectrum));
+            [observer.rgb_of(spectrum), sensor.unwrap_or([0.0; 3])]
         }
     };
-    Some(arriving.map(|c| c * share * clear))
+    Some(arriving.map(|rgb| rgb.map(|c| c * share * clear)))
 }
 
 /// Transmittances of the fog along a ray.

@@ -31,6 +31,9 @@ pub enum Error {
     /// The data set cannot be read or written.
     #[error(transparent)]
     DataSet(#[from] fog_dataset::Error),
+    /// A sensor cannot be made.
+    #[error("{0}")]
+    Sensor(String),
     /// A picture cannot be denoised.
     #[error("{0}")]
     Denoise(String),

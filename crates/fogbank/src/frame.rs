@@ -1,6 +1,7 @@
 //! One frame: specification → scene → picture and record.
 
 use crate::aviation;
+use crate::clear_air;
 use crate::denoise;
 use crate::error::Error;
 use crate::exposure;
@@ -10,8 +11,9 @@ use crate::lighting::{DistantLights, distant_lights, light_groups};
 use crate::objects::objects_json;
 use crate::record::record;
 use crate::resources::Resources;
+use crate::sensor::{self, Chain};
 use fog_core::Vec3A;
-use fog_dataset::DenoisedPicture;
+use fog_dataset::{CameraPicture, ClearPicture, DenoisedPicture};
 use fog_film::Frame;
 use fog_plan::{CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose, Shutter};
@@ -34,6 +36,10 @@ pub struct Rendered {
     pub denoised: Option<DenoisedPicture>,
     /// Records of the things in the picture, if the frame asks for them.
     pub objects: Option<serde_json::Value>,
+    /// The pictures of the sensor, if the frame has one.
+    pub camera_picture: Option<CameraPicture>,
+    /// The view in clear air, if the frame asks for it.
+    pub clear: Option<ClearPicture>,
 }
 
 /// Camera of a frame.
@@ -118,24 +124,25 @@ pub fn render_frame(
     let (scene, fog) = scene(spec, resources)?;
     // Before any work.
     resources.denoiser(spec)?;
+    let observer = sensor::observer(spec, resources)?;
     let camera = camera(spec);
     let settings = settings(spec);
-    let frame =
-        fog_tracer::render::render(&scene, &camera, &resources.observer, &settings, spec.seed, progress)?
-            .ok_or(Error::Cancelled)?;
-    finish(spec, resources, (&scene, fog.as_ref()), frame, config_digest)
+    let frame = fog_tracer::render::render(&scene, &camera, &observer, &settings, spec.seed, progress)?
+        .ok_or(Error::Cancelled)?;
+    finish(spec, resources, (&scene, fog.as_ref()), frame, config_digest, progress)
 }
 
-/// A frame with its record and, if asked for, its denoised picture.
+/// A frame with its record and, if asked for, the pictures of its sensor, its view in clear air and its denoised picture.
 ///
 /// # Errors
-/// If it cannot be denoised.
+/// If it cannot be denoised, its sensor cannot be had, clear air cannot be rendered, or `progress` asked to stop.
 pub(crate) fn finish(
     spec: &FrameSpec,
     resources: &Resources,
     (scene, fog): (&Scene, Option<&Fog>),
     mut frame: Frame,
     config_digest: &str,
+    progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Result<Rendered, Error> {
     let camera = camera(spec);
     let labels = labels::labels(spec, scene)?;
@@ -155,11 +162,25 @@ pub(crate) fn finish(
     if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
+    let chain = Chain::new(spec, &camera, exposure, resources)?;
+    if let Some(chain) = &chain {
+        chain.write(&frame, resources, &mut record);
+    }
+    let camera_picture = chain.as_ref().map(|chain| chain.pictures(&frame, 0));
+    let clear = if clear_air::is_wanted(spec) {
+        let observer = sensor::observer(spec, resources)?;
+        let clear = clear_air::render_clear(spec, scene, (&camera, &observer), &frame, progress)?;
+        record["pair"] = clear_air::record_json(spec, &clear);
+        Some(clear_air::picture(clear, chain.as_ref(), exposure))
+    } else {
+        None
+    };
     let denoiser = resources.denoiser(spec)?;
     let denoised = denoiser
         .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
         .transpose()?;
     let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
-    let objects = objects.map(|labels| objects_json(spec, scene, &camera, &labels, &frame, None));
-    Ok(Rendered { frame, record, camera, exposure, denoised, objects })
+    let objects = objects
+        .map(|labels| objects_json(spec, scene, &camera, &labels, &frame, clear.as_ref().map(|c| &c.frame)));
+    Ok(Rendered { frame, record, camera, exposure, denoised, objects, camera_picture, clear })
 }

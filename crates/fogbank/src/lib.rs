@@ -20,6 +20,7 @@
 pub mod aviation;
 mod camera_record;
 mod changed_files;
+mod clear_air;
 mod compare;
 mod denoise;
 mod droplets;
@@ -39,6 +40,7 @@ mod replay;
 mod resources;
 mod scenes;
 mod selection;
+mod sensor;
 mod shared;
 mod skies;
 mod sources;

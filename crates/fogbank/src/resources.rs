@@ -68,6 +68,9 @@ impl Resources {
             }
             self.denoiser = Some(denoiser);
         }
+        if let Some(file) = spec.sensor.model.as_ref().and_then(|model| model.response_file()) {
+            self.sources.read_file(file);
+        }
         self.surroundings.prepare(&spec.lighting, &self.observer);
         if let Some(scene) = &spec.scene {
             self.scenes.prepare(scene, progress);
@@ -128,7 +131,7 @@ impl Resources {
         &self.surroundings
     }
 
-    /// Text files that fogs are read from.
+    /// Text files that fogs and sensors are read from.
     pub(crate) fn files(&self) -> &TextFiles {
         self.sources.files()
     }

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::fog::Fog;
 use crate::frame::{self, Rendered, finish, settings};
 use crate::resources::Resources;
+use crate::sensor;
 use fog_plan::{FogSpec, FrameSpec};
 use fog_scene::medium::Medium;
 use fog_scene::scene::Scene;
@@ -127,13 +128,14 @@ fn one_pass(
     let variants: Vec<Variant> = pass.iter().map(variant).collect();
     let (scene, _) = frame::scene(&base, resources)?;
     let camera = frame::camera(&base);
-    let (settings, view) = (settings(&base), (&camera, &resources.observer));
+    let observer = sensor::observer(&base, resources)?;
+    let (settings, view) = (settings(&base), (&camera, &observer));
     let frames = render_shared(&scene, &media, &variants, view, &settings, base.seed, progress);
     let ids: Vec<&str> = pass.iter().map(|&i| set[i].id.as_str()).collect();
     let share = json!({ "frames": ids, "fogs": fogs.len(), "seed": base.seed });
     let done = |(&i, frame): (&usize, Result<_, fog_film::FrameError>)| {
         let (scene, fog) = made[i].as_ref().map_err(|_| Error::Cancelled)?;
-        let mut rendered = finish(set[i], resources, (scene, fog.as_ref()), frame?, config_digest)?;
+        let mut rendered = finish(set[i], resources, (scene, fog.as_ref()), frame?, config_digest, progress)?;
         rendered.record["share"] = share.clone();
         Ok(rendered)
     };

@@ -97,6 +97,11 @@ impl Sources {
         }
     }
 
+    /// Reads a file that is no fog's.
+    pub(crate) fn read_file(&mut self, file: &Path) {
+        self.files.read(file);
+    }
+
     pub(crate) fn files(&self) -> &TextFiles {
         &self.files
     }

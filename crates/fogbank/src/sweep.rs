@@ -9,7 +9,7 @@ use crate::selection::Selection;
 use crate::tracker::Tracker;
 use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
-use crate::{CODE_DIGEST, camera_record, changed_files, frame, labels};
+use crate::{CODE_DIGEST, camera_record, changed_files, clear_air, frame, labels, sensor};
 use fog_dataset::{
     Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
 };
@@ -146,7 +146,8 @@ fn refuse_if_nothing_works<'f>(
 ) -> Result<(), Error> {
     let mut refused = Ok(());
     for frame in frames {
-        match frame::scene(frame, resources).and_then(|_| resources.denoiser(frame)) {
+        let scene = frame::scene(frame, resources).and_then(|_| sensor::observer(frame, resources));
+        match scene.and_then(|_| resources.denoiser(frame)) {
             Ok(_) => return Ok(()),
             Err(e) => refused = refused.and(Err(e)),
         }
@@ -224,14 +225,20 @@ fn warn_of_unknown_classes<'f>(
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
-    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(spec.render.samples)
+    let pixels = u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px);
+    pixels * u64::from(spec.render.samples) * views(spec)
 }
 
 /// Number of paths that a frame takes at most: [`path_count`] unless sampling goes by noise.
 #[must_use]
 pub fn most_paths(spec: &FrameSpec) -> u64 {
     let most = spec.render.stop.map_or(spec.render.samples, |stop| stop.max_samples);
-    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(most)
+    u64::from(spec.sensor.width_px) * u64::from(spec.sensor.height_px) * u64::from(most) * views(spec)
+}
+
+/// Views that are rendered of a frame: its own, and that in clear air.
+fn views(spec: &FrameSpec) -> u64 {
+    if clear_air::is_rendered(spec) { 2 } else { 1 }
 }
 
 /// The outputs of a frame as the data set knows them.
@@ -292,6 +299,8 @@ pub(crate) fn store(
         record: &rendered.record,
         denoised: rendered.denoised.as_ref(),
         objects: rendered.objects.as_ref(),
+        camera: rendered.camera_picture.as_ref(),
+        clear: rendered.clear.as_ref(),
         exposure: rendered.exposure as f32,
         seconds,
         attributes: &attributes,

@@ -1,4 +1,4 @@
-//! Text files that fogs are read from: each read once, so that all frames of a run see the same content, and known by its
+//! Text files that fogs and sensors are read from: each read once, so that all frames of a run see the same content, and known by its
 //! hash.
 
 use crate::error::Error;

@@ -1,6 +1,7 @@
 //! The program as its users run it: real command lines, real files.
 
 mod cache;
+mod cameras;
 mod chaos;
 mod commands;
 mod common;

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use fog_dataset::{
-    Attribute, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening, OutputSet, PlanFrame, Result,
+    Attribute, CameraPicture, ClearPicture, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening,
+    OutputSet, PlanFrame, Result,
 };
 use fog_film::{Channels, Frame, GroupLayer, PixelFilm, SurfaceTruth, Truth};
 use serde_json::{Map, Value, json};
@@ -116,8 +117,15 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
     .into();
     let rgb = frame.direct.iter().map(|rgb| rgb.map(|v| 0.5 * v)).collect();
     let denoised = DenoisedPicture { rgb, details: json!({ "library": "half" }) };
+    // Noise of some bits, as raw pictures have.
+    let raw = frame.direct.iter().map(|rgb| 64 + (rgb[1] * 1000.0) as u16).collect();
+    let srgb8 = if frame.check().is_ok() { frame.to_srgb8(1.25) } else { Vec::new() };
+    let camera = CameraPicture { raw, srgb8: srgb8.clone() };
+    let clear = ClearPicture { frame: frame.clone(), srgb8 };
     set.write_frame(&FrameFiles {
         id,
+        camera: Some(&camera),
+        clear: Some(&clear),
         denoised: Some(&denoised),
         objects: Some(&json!({ "objects": [] })),
         frame,

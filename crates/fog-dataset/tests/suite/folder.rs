@@ -116,7 +116,7 @@ struct TinyDisk(PathBuf);
 impl TinyDisk {
     fn mount(at: &Path) -> Option<Self> {
         let mut command = Command::new("mount");
-        command.args(["-t", "tmpfs", "-o", "size=128k", "tmpfs"]).arg(at);
+        command.args(["-t", "tmpfs", "-o", "size=160k", "tmpfs"]).arg(at);
         command.output().is_ok_and(|o| o.status.success()).then(|| Self(at.to_path_buf()))
     }
 }

@@ -62,10 +62,11 @@ fn failures_are_recorded_until_the_frame_succeeds() {
     assert_eq!(
         fs::read_to_string(dir.path().join("index.csv")).expect("an index"),
         "index,id,status,pair_id,camera.altitude_m,image_file,hdr_file,gt_file,record_file,semantic_file,\
-         instance_file,objects_file\n\
-         0,f0,done,p0,2,f0.rgb.png,f0.hdr.exr,f0.gt.exr,f0.json,f0.semantic.png,f0.instance.png,f0.objects.json\n\
-         1,f1,failed,p0,2,,,,,,,\n\
-         2,f2,missing,p0,2,,,,,,,\n"
+         instance_file,objects_file,raw_file,clear_file,clear_image_file\n\
+         0,f0,done,p0,2,f0.rgb.png,f0.hdr.exr,f0.gt.exr,f0.json,f0.semantic.png,f0.instance.png,f0.objects.json,\
+         f0.raw.png,f0.clear.exr,f0.clear.rgb.png\n\
+         1,f1,failed,p0,2,,,,,,,,,,\n\
+         2,f2,missing,p0,2,,,,,,,,,,\n"
     );
 }
 

@@ -168,7 +168,7 @@ fn two_runs_give_the_same_bytes() {
         contents(dir.path())
     };
     let first = run(1.0);
-    assert_eq!(first.len(), 5 + 2 * 11);
+    assert_eq!(first.len(), 5 + 2 * 14);
     for i in 0..8 {
         assert!(run(f64::from(i)) == first, "run {i} differs");
     }
@@ -199,7 +199,10 @@ fn marker_timing_and_headers_say_what_they_should() {
             "f0.json",
             "f0.semantic.png",
             "f0.instance.png",
-            "f0.objects.json"
+            "f0.objects.json",
+            "f0.raw.png",
+            "f0.clear.exr",
+            "f0.clear.rgb.png"
         ]
     );
     let record = std::fs::read_to_string(dir.path().join("f0.json")).expect("a record");

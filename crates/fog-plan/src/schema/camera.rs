@@ -7,6 +7,7 @@ use super::{
     exposure::ExposureFile,
     lens::{IntrinsicsFile, LensFile},
     path::ShutterFile,
+    sensor_model::SensorModelFile,
 };
 use crate::ranges;
 
@@ -66,6 +67,10 @@ pub(crate) struct SensorFile {
     /// Factor on linear values before sRGB encoding, or where it comes from: `auto`, {percentile: …, target: …} or
     /// {iso: …, shutter_s: …, f_number: …}.
     pub(crate) exposure: ExposureFile,
+    /// The sensor: lens, noise, converter and colour filters of `raw` and, developed, of `image`. Absent: none, the picture is
+    /// ideal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) model: Option<SensorModelFile>,
 }
 
 impl Default for SensorFile {
@@ -78,6 +83,7 @@ impl Default for SensorFile {
             lens: None,
             shutter: None,
             exposure: ExposureFile::Factor(1.0),
+            model: None,
         }
     }
 }
@@ -179,6 +185,10 @@ pub(crate) enum OutputFile {
     Flow,
     /// Boxes, occlusion, contrast and detectability of each thing in the picture; only where it is named.
     Objects,
+    /// The raw picture of `sensor.model`, a mosaic of up to 16 bits; only where it is named.
+    Raw,
+    /// The same view in clear air at the same exposure, radiance and picture; only where it is named.
+    Pair,
 }
 
 impl OutputFile {

@@ -15,6 +15,7 @@ mod path;
 mod phase;
 mod runway;
 mod scene;
+mod sensor_model;
 mod sky;
 mod sweep;
 
@@ -41,6 +42,10 @@ pub(crate) use path::{
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use runway::RunwayFile;
 pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
+pub(crate) use sensor_model::{
+    BayerFile, PsfFile, ResponseFile, SensorModelFile, SensorModelMap, SensorModelWord, SensorPreset,
+    VignettingFile,
+};
 pub(crate) use sky::{
     AEROSOL_OPTICAL_DEPTH, GROUND_ALBEDO, MoonFile, NIGHT_LUMINANCE_CD_M2, OZONE_DU, SkyFile, SkyModelName,
 };

@@ -13,6 +13,7 @@ mod path;
 mod pose;
 mod runway;
 mod scene;
+mod sensor_model;
 mod sky;
 mod view;
 
@@ -131,6 +132,7 @@ impl Check<'_> {
         let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
         let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
         let runway = self.runway(file.runway.as_ref());
+        self.sensor_rules(file, sensor.as_ref());
         let View { camera, rig, path, readout_end } = view?;
         let mut scene = scene?;
         if let (Some(scene), Some(path)) = (&mut scene, &path) {

@@ -20,6 +20,7 @@ impl Check<'_> {
         let height = self.whole("sensor.height_px", sensor.height_px, ranges::IMAGE_PX);
         let geometry = self.geometry(sensor, [width, height]);
         let exposure = self.exposure(&sensor.exposure);
+        let model = self.sensor_model(sensor.model.as_ref(), exposure.as_ref());
         let Geometry { horizontal_fov_deg, intrinsics, lens, projection } = geometry?;
         Some(SensorSpec {
             width_px: width?,
@@ -35,6 +36,7 @@ impl Check<'_> {
                 _ => None,
             },
             exposure: exposure?,
+            model: model?,
         })
     }
 
@@ -141,5 +143,7 @@ fn domain(output: OutputFile) -> Output {
         OutputFile::Instance => Output::Instance,
         OutputFile::Flow => Output::Flow,
         OutputFile::Objects => Output::Objects,
+        OutputFile::Raw => Output::Raw,
+        OutputFile::Pair => Output::Pair,
     }
 }

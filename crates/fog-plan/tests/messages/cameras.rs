@@ -163,7 +163,7 @@ fn rigs_and_shutters() {
         ),
         [
             "configs/x.yaml:7:70: cameras.b.sensor.hight: unknown key; expected one of width_px, height_px, \
-             horizontal_fov_deg, intrinsics, lens, shutter, exposure",
+             horizontal_fov_deg, intrinsics, lens, shutter, exposure, model",
             "configs/x.yaml:7:67: cameras.b.sensor.width_px: 0 px is out of range; valid: 1 to 16384 px",
             "configs/x.yaml:7:41: cameras.b.position_m.2: 2000 m is out of range; valid: -1000 to 1000 m",
         ]

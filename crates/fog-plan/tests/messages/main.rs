@@ -69,7 +69,7 @@ fn wrong_types() {
     assert_eq!(
         errors("fog: none\nsensor: wide\n"),
         [
-            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, shutter, exposure, \
+            "configs/x.yaml:7:9: sensor: expected a map with keys width_px, height_px, horizontal_fov_deg, intrinsics, lens, shutter, exposure, model, \
           found text \"wide\""
         ]
     );
@@ -130,7 +130,7 @@ fn unknown_values() {
         errors("fog: none\noutputs: [image, image, tua]\n"),
         [
             "configs/x.yaml:7:25: outputs.2: unknown value \"tua\"; expected one of image, hdr, depth, distance, \
-          transmittance, tau, direct, airlight, standard_error, samples, denoised, normals, position, albedo, semantic, instance, flow, objects; did you mean `tau`?"
+          transmittance, tau, direct, airlight, standard_error, samples, denoised, normals, position, albedo, semantic, instance, flow, objects, raw, pair; did you mean `tau`?"
         ]
     );
     assert_eq!(errors("fog: none\noutputs: [tau, tau]\n"), ["configs/x.yaml:7:16: outputs.1: named twice"]);

@@ -133,7 +133,7 @@ fn a_rolling_shutter_ends_between_two_poses() {
 
 #[test]
 fn lenses_and_their_defaults() {
-    let sensor = |keys: &str| frames(&format!("sensor: {{{keys}}}\n"))[0].sensor;
+    let sensor = |keys: &str| frames(&format!("sensor: {{{keys}}}\n"))[0].sensor.clone();
     assert_eq!(sensor("lens: pinhole").projection, sensor("width_px: 320").projection);
     assert_eq!(sensor("lens: fisheye").horizontal_fov_deg, Some(180.0));
     assert_eq!(sensor("lens: equirectangular").horizontal_fov_deg, Some(360.0));

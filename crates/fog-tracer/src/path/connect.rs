@@ -27,10 +27,10 @@ impl PathTracer<'_> {
         let value = lobe.value(light.direction);
         let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
         let mut density = path.r_u * light.density(value.density * transmittance);
-        if let Some((flight, lamp)) = flight.zip(light.lamp()) {
+        if let (Some(flight), Some(lamp), Some(angles)) = (flight, light.lamp(), &self.phase_angles) {
             let lamps = self.scene.lamps();
-            let near = flight.segment.near(lamps.lights()[lamp].position).pdf(flight.t) as f32;
-            density += flight.before * (lamps.probability(lamp, &flight.segment.receiver()) * near);
+            let near = flight.segment.near(lamps.lights()[lamp].position, angles).pdf(flight.t) as f32;
+            density += flight.before * (lamps.probability(lamp, &flight.segment.receiver(angles)) * near);
         }
         let sum = path.beta * value.phase * transmittance * light.radiance * (1.0 / density.mean());
         let offer = Offer { light: &light, value: value.phase, transmittance, worth: sum, glow: false };

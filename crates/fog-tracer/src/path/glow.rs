@@ -57,10 +57,11 @@ impl PathTracer<'_> {
         let (medium, medium_lanes) =
             self.medium.as_ref().zip(lanes.medium.as_ref()).expect("a lit segment needs fog");
         let lamps = self.scene.lamps();
-        let Some((lamp, chosen)) = lamps.choose(&segment.receiver(), rng.uniform_f64()) else {
+        let angles = self.phase_angles.as_ref().expect("a lit segment needs lamps");
+        let Some((lamp, chosen)) = lamps.choose(&segment.receiver(angles), rng.uniform_f64()) else {
             return Spectrum::ZERO;
         };
-        let near = segment.near(lamps.lights()[lamp].position);
+        let near = segment.near(lamps.lights()[lamp].position, angles);
         let Some(t) = near.sample(rng.uniform_f64()) else { return Spectrum::ZERO };
         let point = path.origin + path.direction * t as f32;
         let Crossed { even_y, depth, density, .. } = self.cross(path, t, medium_lanes);

@@ -33,7 +33,18 @@ fn frame(scene: &Scene, camera: &Camera) -> Frame {
     let standard_error = (0..n).map(|i| 0.01 * (direct[i][0] + airlight[i][0])).collect();
     let samples = vec![1; n];
     let (width, height, channels) = (camera.width, camera.height, Channels::Rgb);
-    Frame { width, height, channels, samples, direct, airlight, standard_error, groups: Vec::new(), truth }
+    Frame {
+        width,
+        height,
+        channels,
+        samples,
+        direct,
+        airlight,
+        standard_error,
+        groups: Vec::new(),
+        sensor: Vec::new(),
+        truth,
+    }
 }
 
 fn records(scene: &Scene, camera: &Camera, frame: &Frame, clear: Option<&Frame>) -> Vec<ObjectTruth> {
