@@ -12,7 +12,7 @@ use fog_scene::medium::Medium;
 use fog_scene::phase::Phase;
 use fog_scene::scene::Scene;
 use fog_tests::{data, scenes};
-use fog_tracer::settings::Settings;
+use fog_tracer::settings::{Settings, Stop};
 use std::fmt::Write as _;
 use std::time::Instant;
 
@@ -24,13 +24,25 @@ struct Arguments {
     samples: u64,
     seed: u64,
     threads: usize,
+    /// Gives pixels samples by their relative error.
+    by_error: bool,
+    /// Takes the fog for a similar one after some scatterings.
+    similar: bool,
     write: Option<String>,
     describe: Option<String>,
 }
 
 fn arguments() -> Result<Arguments, String> {
-    let mut out =
-        Arguments { scene: "day".into(), samples: 16, seed: 1, threads: 2, write: None, describe: None };
+    let mut out = Arguments {
+        scene: "day".into(),
+        samples: 16,
+        seed: 1,
+        threads: 2,
+        by_error: false,
+        similar: false,
+        write: None,
+        describe: None,
+    };
     let mut words = std::env::args().skip(1).filter(|a| a != "--bench");
     while let Some(key) = words.next() {
         let value = words.next().ok_or(format!("{key}: a value is missing"))?;
@@ -40,11 +52,14 @@ fn arguments() -> Result<Arguments, String> {
             "--samples" => out.samples = number()?,
             "--seed" => out.seed = number()?,
             "--threads" => out.threads = number()? as usize,
+            "--allocate" if value == "even" => out.by_error = false,
+            "--allocate" if value == "relative_error" => out.by_error = true,
+            "--approximation" if value == "similarity" => out.similar = true,
             "--write" => out.write = Some(value),
             "--describe" => out.describe = Some(value),
             _ => {
                 return Err(format!(
-                    "{key}: unknown; known: --scene --samples --seed --threads --write --describe"
+                    "{key} {value}: unknown; known: --scene --samples --seed --threads --allocate even or relative_error, --approximation similarity, --write --describe"
                 ));
             }
         }
@@ -107,11 +122,13 @@ fn describe(scene: &Scene) -> String {
 fn main() -> Result<(), String> {
     let arguments = arguments()?;
     let scene = scene(&arguments.scene)?;
+    let scene = if arguments.similar { scene.with_similar_fog() } else { scene };
     if let Some(path) = &arguments.describe {
         std::fs::write(path, describe(&scene)).map_err(|e| format!("{path}: {e}"))?;
     }
     let camera = scenes::camera(1.7, 0.0, 0.0, 480, 270, 60.0);
-    let settings = Settings { samples: arguments.samples, max_depth: None, wavelength_nm: None, stop: None };
+    let stop = arguments.by_error.then_some(Stop::Budget);
+    let settings = Settings { samples: arguments.samples, max_depth: None, wavelength_nm: None, stop };
     let observer = Observer::new();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
     let pool = pool.map_err(|e| e.to_string())?;

@@ -10,7 +10,7 @@ use fog_scene::light::{Environment, Sun};
 use fog_scene::light_groups::{LightGroup, LightGroups, LightPattern};
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
-use fog_tracer::settings::{Settings, Stop};
+use fog_tracer::settings::{NoiseTarget, Settings, Stop};
 use std::sync::Arc;
 
 /// The street by night with every kind of light.
@@ -52,7 +52,7 @@ fn render_seed(scene: &Scene, settings: &Settings, seed: u64) -> Frame {
 
 #[test]
 fn layers_add_up_and_change_nothing() {
-    let stop = Stop { noise: 0.3, max_samples: 64 };
+    let stop = Stop::Noise(NoiseTarget { noise: 0.3, max_samples: 64 });
     let by_noise = Settings { samples: 16, stop: Some(stop), max_depth: None, wavelength_nm: None };
     let mono = Settings { samples: 16, stop: None, max_depth: Some(6), wavelength_nm: Some(600.0) };
     for settings in [by_noise, mono] {

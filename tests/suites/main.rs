@@ -1,6 +1,7 @@
 //! The slow suites, one program: statistical tests of every sampler, and renderings against independent references.
 
 mod analog;
+mod approximation;
 mod cameras;
 mod droplets;
 mod emitters;

@@ -4,7 +4,7 @@ use fog_core::moments::Moments;
 use fog_film::Frame;
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
-use fog_tracer::settings::{Settings, Stop};
+use fog_tracer::settings::{NoiseTarget, Settings, Stop};
 
 fn render(scene: &Scene, samples: u64, stop: Option<Stop>, seed: u64) -> Frame {
     let camera = scenes::camera(1.7, 0.0, 0.0, 64, 36, 60.0);
@@ -29,7 +29,7 @@ fn worst(frame: &Frame) -> f64 {
 fn fewer_samples_for_the_same_greatest_error() {
     let fog = scenes::hg_fog(scenes::grey_profile(60.0, &[0.03, 0.02, 0.01], 1.0), 0.83);
     let scene = Scene::new(scenes::load("street_grey_night.glb"), Some(fog), None, None, true);
-    let stop = Stop { noise: 0.2, max_samples: 4096 };
+    let stop = Stop::Noise(NoiseTarget { noise: 0.2, max_samples: 4096 });
     let by_noise = render(&scene, 16, Some(stop), 1);
     let samples = by_noise.mean_samples();
     let uniform = render(&scene, samples.ceil() as u64, None, 2);

@@ -9,7 +9,9 @@ use fog_core::{Vec3A, math, phase_grid, warp};
 use fog_optics::advection::AdvectionModel;
 use fog_scene::bsdf::Bsdf;
 use fog_scene::emitters::{Breadth, EmitterTriangle, Emitters};
+use fog_scene::lamp::{Cone, Lamp};
 use fog_scene::light::Sun;
+use fog_scene::light_tree::{LightTree, Receiver};
 use fog_scene::phase::{Phase, PhaseNodes};
 use fog_scene::{Hit, SurfaceParameters};
 use fog_tests::chi_square::assert_follows;
@@ -313,13 +315,54 @@ fn points_of_emitters() {
 }
 
 #[test]
+fn choices_of_a_light_tree() {
+    // Lamps of very different strength, two of three of them with cones.
+    let lamps = (0..200u64).map(|i| {
+        let mut rng = PathRng::new(53, 0, i);
+        let mut place = || 100.0 * (rng.uniform() - 0.5);
+        let position = Vec3A::new(place(), 0.1 * place(), place());
+        let axis = warp::uniform_sphere(rng.uniform2());
+        let intensity = [0.1 + 50.0 * rng.uniform().powi(4); 3];
+        if i % 3 == 0 {
+            Lamp::even(position, intensity)
+        } else {
+            Lamp::spot(position, intensity, Cone { axis, cos_inner: 0.9, cos_outer: -0.3 })
+        }
+    });
+    let tree = LightTree::new(lamps);
+    let (origin, direction) = (Vec3A::new(-60.0, 3.0, 8.0), Vec3A::X);
+    let receivers = [
+        Receiver::Point(Vec3A::new(3.0, 2.0, -5.0)),
+        Receiver::Point(Vec3A::new(0.0, 200.0, 0.0)),
+        Receiver::Segment { origin, direction, enter: 2.0, exit: 90.0, angles: None },
+        Receiver::Segment { origin, direction, enter: 0.0, exit: f32::INFINITY, angles: None },
+    ];
+    for (k, receiver) in receivers.iter().enumerate() {
+        let all = 0..tree.lights().len();
+        let mut expected: Vec<f64> =
+            all.map(|i| f64::from(tree.probability(i, receiver)) * SAMPLES as f64).collect();
+        // The last cell: no light, where both halves of a node turn out to be out of reach.
+        let none = SAMPLES as f64 - expected.iter().sum::<f64>();
+        assert!(none > -1e-4 * SAMPLES as f64, "receiver {k}: probabilities sum to more than 1");
+        expected.push(none.max(0.0));
+        let mut observed = vec![0u64; expected.len()];
+        let mut rng = PathRng::new(59, 0, k as u64);
+        for _ in 0..SAMPLES {
+            let chosen = tree.choose(receiver, rng.uniform_f64());
+            observed[chosen.map_or(expected.len() - 1, |(light, _)| light)] += 1;
+        }
+        assert_follows(&format!("lights for receiver {k}"), &observed, &expected, receivers.len());
+    }
+}
+
+#[test]
 fn stratified_dimensions_are_uniform_together() {
     // Position in the pixel, wavelength and first flight of many pixels: cells of the four dimensions by three.
     let mut observed = vec![0u64; 81];
     let (pixels, samples) = (20_000u64, 16u64);
     for pixel in 0..pixels {
         for s in 0..samples {
-            let p = fog_core::random::stratified(5, pixel, s);
+            let p = fog_core::random::stratified(5, pixel, s, 1);
             let [x, y] = p.pixel;
             let cell = [x, y, p.wavelength, p.flight].iter().fold(0, |cell, u| cell * 3 + (u * 3.0) as usize);
             observed[cell] += 1;

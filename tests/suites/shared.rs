@@ -11,7 +11,7 @@ use fog_scene::medium::Medium;
 use fog_scene::scene::Scene;
 use fog_tests::scenes;
 use fog_tracer::render_shared::{Variant, render_shared};
-use fog_tracer::settings::{Settings, Stop};
+use fog_tracer::settings::{NoiseTarget, Settings, Stop};
 use std::sync::Arc;
 
 const SETTINGS: Settings = Settings { samples: 48, stop: None, max_depth: None, wavelength_nm: None };
@@ -114,7 +114,11 @@ fn intensities_are_factors_of_groups() {
     )
     .with_light_groups(groups);
     let variant = |fog, factors: [f32; 3]| Variant { fog, factors: factors.to_vec() };
-    let settings = Settings { samples: 16, stop: Some(Stop { noise: 0.3, max_samples: 24 }), ..SETTINGS };
+    let settings = Settings {
+        samples: 16,
+        stop: Some(Stop::Noise(NoiseTarget { noise: 0.3, max_samples: 24 })),
+        ..SETTINGS
+    };
     for media in [&media[..1], &media] {
         let last = media.len() - 1;
         let variants = [

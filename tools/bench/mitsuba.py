@@ -249,13 +249,14 @@ def compare(name, binary, options, folder):
     theirs.render(options.mitsuba_samples, 1)  # compiles
     rows = []
     for i in range(2 * options.rounds):
-        rows.append((fogbank(binary, name, options.samples, 100 + i, options.threads, folder),
+        rows.append((fogbank(binary, name, options.samples, 100 + i, options.threads, folder, "--allocate", options.allocate),
                      theirs.render(options.mitsuba_samples, 200 + i)))
     (ours, mine), (others, their) = ([[r[k][j] for r in rows] for j in (0, 1)] for k in (0, 1))
     ours_error, mitsuba_error = errors(ours, reference), errors(others, reference)
     speed = statistics.median(t / s for s, t in zip(mine, their))
     return {
         "scene": name, "variant": variant, "variants": tried,
+        "allocate": options.allocate,
         "fogbank": {"samples": options.samples, "seconds": statistics.median(mine), "relative_mse": ours_error[0],
                     "efficiency": 1 / (ours_error[0] * statistics.median(mine))},
         "mitsuba": {"samples": options.mitsuba_samples, "seconds": statistics.median(their),
@@ -277,6 +278,8 @@ def main():
     parser.add_argument("--samples", type=int, default=32, help="ours, a pixel")
     parser.add_argument("--mitsuba-samples", type=int, default=8)
     parser.add_argument("--reference", type=int, default=64, help="samples a pixel of the image that errors are relative to")
+    parser.add_argument("--allocate", choices=["even", "relative_error"], default="even",
+                        help="how ours shares out its samples over the pixels: render.allocate")
     parser.add_argument("--threads", type=int, default=2)
     options = parser.parse_args()
     unknown = [s for s in options.scenes.split(",") if s not in SCENES]

@@ -8,26 +8,27 @@ use crate::spectrum::{LaneWeights, Spectrum};
 /// interpolation, else the upper. Over many scatterings this *is* linear interpolation.
 #[inline(always)]
 pub(crate) fn interpolating_row(zeta: &[f64], at: f32, u: f32) -> usize {
-    let n = zeta.len();
-    if n == 1 {
-        return 0;
-    }
-    let at = f64::from(at);
-    let upper = zeta.partition_point(|&z| z <= at).clamp(1, n - 1);
-    let t = (at - zeta[upper - 1]) / (zeta[upper] - zeta[upper - 1]);
-    if f64::from(u) < t { upper } else { upper - 1 }
+    let (lower, t) = row_below(zeta, at);
+    if f64::from(u) < t { lower + 1 } else { lower }
 }
 
 /// The row below `at`, and the weight of the next one in the linear interpolation between both.
 #[inline(always)]
 pub(crate) fn rows_around(zeta: &[f64], at: f32) -> (usize, f32) {
+    let (lower, t) = row_below(zeta, at);
+    (lower, t.clamp(0.0, 1.0) as f32)
+}
+
+/// The row below `at`, or the first or the last but one, and how far the way to the next one is gone; 0 where there is but one.
+#[inline(always)]
+fn row_below(zeta: &[f64], at: f32) -> (usize, f64) {
     let n = zeta.len();
     if n == 1 {
         return (0, 0.0);
     }
     let at = f64::from(at);
     let upper = zeta.partition_point(|&z| z <= at).clamp(1, n - 1);
-    (upper - 1, ((at - zeta[upper - 1]) / (zeta[upper] - zeta[upper - 1])).clamp(0.0, 1.0) as f32)
+    (upper - 1, (at - zeta[upper - 1]) / (zeta[upper] - zeta[upper - 1]))
 }
 
 /// Value of row `row` at all lanes for m = 1 − cos θ; `phase` is \[row\]\[node\]\[wavelength\] with `w` wavelengths.

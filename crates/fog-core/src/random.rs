@@ -19,6 +19,25 @@ pub struct PathRng {
     state: u64,
     turn: Option<[f32; 2]>,
     flight: Option<f32>,
+    turns: Option<FirstTurns>,
+}
+
+/// Where a path's first turns are among those of its pixel: those of one path follow each other.
+#[derive(Clone, Copy, Debug)]
+pub struct FirstTurns {
+    key: u64,
+    first: u64,
+}
+
+impl FirstTurns {
+    /// The n-th first turn of the path, and the second flight that follows it.
+    #[inline]
+    fn at(self, n: u64) -> ([f32; 2], f32) {
+        let index = self.first + n;
+        let key = mix64(self.key.wrapping_add(index >> 16)) as u32;
+        let [u, v, flight, _] = sobol_burley::sample_4d((index & 0xffff) as u32, 1, key);
+        ([u, v], flight)
+    }
 }
 
 /// The first dimensions of a path, stratified over the samples of a pixel.
@@ -30,10 +49,8 @@ pub struct Stratified {
     pub wavelength: f32,
     /// Selects the optical depth of the first free flight.
     pub flight: f32,
-    /// Selects the first turn: see [`PathRng::turn`].
-    pub turn: [f32; 2],
-    /// Selects the optical depth of the second free flight.
-    pub second_flight: f32,
+    /// Select the first turn and the optical depth of the second free flight: see [`PathRng::turn`].
+    pub turns: FirstTurns,
 }
 
 impl PathRng {
@@ -41,13 +58,31 @@ impl PathRng {
     #[must_use]
     pub fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         let pixel_key = mix64(seed ^ mix64(pixel.wrapping_mul(GOLDEN).wrapping_add(1)));
-        Self { state: mix64(pixel_key.wrapping_add(sample.wrapping_mul(GOLDEN))), turn: None, flight: None }
+        Self {
+            state: mix64(pixel_key.wrapping_add(sample.wrapping_mul(GOLDEN))),
+            turn: None,
+            flight: None,
+            turns: None,
+        }
     }
 
-    /// The same stream whose first turn and next flight are given.
+    /// The same stream, with stratified numbers for the first turn and the flight after it.
+    #[inline]
     #[must_use]
-    pub fn with_first(self, turn: [f32; 2], flight: f32) -> Self {
-        Self { turn: Some(turn), flight: Some(flight), ..self }
+    pub fn with_first(self, turns: FirstTurns) -> Self {
+        let mut out = Self { turns: Some(turns), ..self };
+        out.branch(0);
+        out
+    }
+
+    /// Takes the stratified numbers of the n-th of several first turns of the path for the next turn and flight; a stream that
+    /// was given none goes on.
+    #[inline]
+    pub fn branch(&mut self, n: u64) {
+        if let Some(turns) = self.turns {
+            let (turn, flight) = turns.at(n);
+            (self.turn, self.flight) = (Some(turn), Some(flight));
+        }
     }
 
     /// Two numbers, uniform in [0, 1), for a turn: of the polar angle, and of the azimuth or what stands for it.
@@ -94,15 +129,15 @@ impl PathRng {
 }
 
 /// Owen-scrambled Sobol point of a pixel's sample (Burley 2020), a fresh scrambling every 65,536 samples (the sequence's
-/// length) so that any sample count is valid.
+/// length) so that any sample count is valid. `branches` (1 or more) are the first turns that each path may take.
 #[must_use]
-pub fn stratified(seed: u64, pixel: u64, sample: u64) -> Stratified {
-    let key =
-        mix64(mix64(seed ^ mix64(pixel.wrapping_mul(GOLDEN).wrapping_add(2))).wrapping_add(sample >> 16));
+pub fn stratified(seed: u64, pixel: u64, sample: u64, branches: u64) -> Stratified {
+    let pixel_key = mix64(seed ^ mix64(pixel.wrapping_mul(GOLDEN).wrapping_add(2)));
+    let key = mix64(pixel_key.wrapping_add(sample >> 16));
     let index = (sample & 0xffff) as u32;
     let [x, y, wavelength, flight] = sobol_burley::sample_4d(index, 0, key as u32);
-    let [u, v, second_flight, _] = sobol_burley::sample_4d(index, 1, key as u32);
-    Stratified { pixel: [x, y], wavelength, flight, turn: [u, v], second_flight }
+    let turns = FirstTurns { key: pixel_key, first: sample * branches };
+    Stratified { pixel: [x, y], wavelength, flight, turns }
 }
 
 #[cfg(test)]
@@ -137,8 +172,9 @@ mod tests {
         // Each of 64 strata of the wavelength gets exactly one of 64 samples.
         let mut seen = [[false; 64]; 3];
         for s in 0..64 {
-            let first = stratified(3, 11, s);
-            for (seen, x) in seen.iter_mut().zip([first.wavelength, first.turn[0], first.second_flight]) {
+            let first = stratified(3, 11, s, 1);
+            let ([turn, _], flight) = first.turns.at(0);
+            for (seen, x) in seen.iter_mut().zip([first.wavelength, turn, flight]) {
                 seen[(x * 64.0) as usize] = true;
             }
         }
@@ -146,11 +182,34 @@ mod tests {
     }
 
     #[test]
-    fn given_numbers_come_first_and_once() {
-        let plain = PathRng::new(1, 2, 3);
-        let mut given = plain.clone().with_first([0.25, 0.5], 0.75);
-        assert_eq!((given.turn(), given.flight()), ((0.25, 0.5), 0.75));
-        let mut plain = plain;
+    fn turns_of_branches_fill_evenly_together() {
+        // 16 paths of 4 first turns each.
+        let mut seen = [[false; 64]; 3];
+        for s in 0..16 {
+            let mut rng = PathRng::new(3, 11, s).with_first(stratified(3, 11, s, 4).turns);
+            for n in 0..4 {
+                rng.branch(n);
+                let ((u, v), flight) = (rng.turn(), rng.flight());
+                for (seen, x) in seen.iter_mut().zip([u as f32, v, flight as f32]) {
+                    seen[(x * 64.0) as usize] = true;
+                }
+            }
+        }
+        assert!(seen.as_flattened().iter().all(|&s| s));
+        // A stream without such numbers takes its own.
+        let mut plain = PathRng::new(3, 11, 0);
+        let mut branched = plain.clone();
+        branched.branch(1);
+        assert_eq!((branched.turn(), branched.flight()), (plain.turn(), plain.flight()));
+    }
+
+    #[test]
+    fn stratified_numbers_come_first_and_once() {
+        let turns = stratified(1, 2, 3, 1).turns;
+        let mut plain = PathRng::new(1, 2, 3);
+        let mut given = plain.clone().with_first(turns);
+        let ([u, v], flight) = turns.at(0);
+        assert_eq!((given.turn(), given.flight()), ((f64::from(u), v), f64::from(flight)));
         assert_eq!((given.turn(), given.flight()), (plain.turn(), plain.flight()));
     }
 }

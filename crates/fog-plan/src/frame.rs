@@ -382,6 +382,12 @@ pub struct RenderSpec {
     /// Sampling goes on until the noise is low. Absent, and then not written: no more than `samples`.
     #[serde(flatten)]
     pub stop: Option<StopSpec>,
+    /// Which pixels get more samples than others. Absent, and then not written: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allocate: Option<Allocate>,
+    /// What is not exact. Absent, and then not written: nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approximation: Option<Approximation>,
     /// Longest path in edges from camera to light (1: only light that comes straight from its source); absent: no limit.
     pub max_depth: Option<u32>,
     /// The only wavelength rendered, in nanometres, 380 to 780; absent: the visible spectrum.
@@ -389,6 +395,22 @@ pub struct RenderSpec {
     /// Which other frames of the plan the paths are shared with. Absent, and then not written: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<Share>,
+}
+
+/// What a rendering does that is not exact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Approximation {
+    /// Paths that have scattered often see fog of fewer scatterings that turn more, in which light spreads alike.
+    Similarity,
+}
+
+/// How the samples of a frame, `samples` for each of its pixels, are shared out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Allocate {
+    /// So that the mean relative squared error over the pixels is least.
+    RelativeError,
 }
 
 /// When enough of a pixel has been sampled.

@@ -52,8 +52,8 @@ pub use droplets::{DropletsSpec, LognormalSpec, VerticalSpec};
 pub use error::{PlanError, Problem};
 pub use filter::Filter;
 pub use frame::{
-    CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec, LightingSpec, MeanCosine, Output,
-    Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
+    Allocate, Approximation, CameraSpec, Coefficient, EnvironmentSpec, FogModel, FogSpec, FrameSpec,
+    LightingSpec, MeanCosine, Output, Phase, RenderSpec, Sampling, SensorSpec, StopSpec, SunSpec, Visibility,
 };
 pub use labels::{ClassPatternSpec, ClassSpec, LabelsSpec};
 pub use lens::{IntrinsicsSpec, LensSpec, ShutterSpec};

@@ -372,6 +372,26 @@ fn a_noise_target_has_a_limit_and_without_one_nothing_is_new() {
 }
 
 #[test]
+fn budgets_and_approximations_are_part_of_a_frame_only_where_asked_for() {
+    let head = "version: 1\nname: t\nscene: none\nfog: none\nlighting: day\ncamera: {altitude_m: 2}\n";
+    let frame = |render: &str| {
+        let plan = fog_plan::parse(&format!("{head}{render}"), "x.yaml", &[]).expect("valid");
+        plan.frame(0).expect("frame").clone()
+    };
+    let plain = frame("");
+    assert_eq!(plain.render.allocate, None);
+    assert_eq!(plain.digest, frame("render: {allocate: even}\n").digest);
+    let by_error = frame("render: {allocate: relative_error}\n");
+    assert_eq!(by_error.render.allocate, Some(fog_plan::Allocate::RelativeError));
+    assert_eq!(serde_json::to_value(by_error.render).expect("json")["allocate"], "relative_error");
+    assert_ne!(plain.digest, by_error.digest);
+    let similar = frame("render: {approximation: similarity}\n");
+    assert_eq!(plain.render.approximation, None);
+    assert_eq!(serde_json::to_value(similar.render).expect("json")["approximation"], "similarity");
+    assert_ne!(plain.digest, similar.digest);
+}
+
+#[test]
 fn light_groups_are_part_of_a_frame_only_where_there_are_some() {
     let json = |lighting: &str| {
         let plan = plan(&format!("lighting: {lighting}\n"));

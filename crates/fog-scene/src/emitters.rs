@@ -213,6 +213,12 @@ impl Emitters {
         !self.tree(breadth).lights().is_empty()
     }
 
+    /// World y of the middle of each part of the emitters of this breadth, and its area in m².
+    pub fn heights(&self, breadth: Breadth) -> impl Iterator<Item = (f32, f32)> {
+        let middle = |piece: &Piece| piece.corners.iter().map(|corner| corner.y).sum::<f32>() / 3.0;
+        self.tree(breadth).lights().iter().map(move |piece| (middle(piece), piece.area))
+    }
+
     /// How often a path at a point is to aim at emitters of this breadth, in [0, 1]: never where it runs into them anyway.
     #[inline]
     #[must_use]

@@ -32,6 +32,14 @@ impl Medium {
         Ok(self)
     }
 
+    /// The same fog with a share `straight` of its scatterings taken for none ([`Phase::truncated`]); `None` for fog that
+    /// cannot be told so: patchy, or of single droplets.
+    #[must_use]
+    pub fn truncated(&self, straight: f64) -> Option<Self> {
+        let phase = self.patches.is_none().then(|| self.phase.truncated(straight))??;
+        Some(Self::new(self.profile.thinned(1.0 - straight), phase))
+    }
+
     /// True if frames in this fog and others can share paths: its densities can be told at any point, without drawing,
     /// and by altitude alone.
     #[must_use]
@@ -80,6 +88,29 @@ impl Medium {
         let phase = self.phase.view(&self.nodes);
         let grey = phase.is_grey() && self.profile.wavelengths_nm().len() == 1;
         MediumView { profile: &self.profile, patchy: self.patchy(), phase, grey }
+    }
+}
+
+/// What stands for a fog along paths that have scattered often: light that has lost its direction spreads by extinction times
+/// 1 − g alone (the similarity relation; Wyman, Patterson & Wilson, J. Comput. Phys. 81, 1989).
+#[derive(Clone, Debug)]
+pub struct LateMedium {
+    /// The fog that is taken for it.
+    pub medium: Medium,
+    /// Scatterings after which it is.
+    pub after: u32,
+}
+
+impl LateMedium {
+    /// Share of the scatterings that is taken for none.
+    pub const STRAIGHT: f64 = 0.6;
+    /// Scatterings before that.
+    pub const AFTER: u32 = 8;
+
+    /// For this fog; `None` if it cannot be told ([`Medium::truncated`]).
+    #[must_use]
+    pub fn similar(medium: &Medium) -> Option<Self> {
+        medium.truncated(Self::STRAIGHT).map(|medium| Self { medium, after: Self::AFTER })
     }
 }
 

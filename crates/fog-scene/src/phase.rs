@@ -5,7 +5,7 @@
 
 use fog_core::diameter_choice::DiameterChoice;
 use fog_core::droplet_table::{DropletTable, DropletView};
-use fog_core::optics_table::{OpticsTable, OpticsView};
+use fog_core::optics_table::{OpticsTable, OpticsTableParts, OpticsView};
 use fog_core::phase::{HenyeyGreenstein, HgDraine};
 use fog_core::phase_grid;
 use fog_core::random::PathRng;
@@ -142,6 +142,39 @@ impl Phase {
             Self::Table(table) => PhaseView::Table { view: table.view(), nodes },
             Self::Droplets { table, choice } => PhaseView::Droplets { view: table.view(), choice, nodes },
         }
+    }
+}
+
+impl Phase {
+    /// Henyey–Greenstein functions of the mean cosine that is left at each altitude and wavelength when a share `straight` of
+    /// the scatterings is taken for none, (g − f) / (1 − f): with extinction 1 − f as much, light spreads alike. `None` for
+    /// single droplets, and where more than the share of g would go straight on.
+    ///
+    /// The scaling is that of Joseph, Wiscombe & Weinman, "The delta-Eddington approximation for radiative flux transfer",
+    /// J. Atmos. Sci. 33, 1976.
+    #[must_use]
+    pub fn truncated(&self, straight: f64) -> Option<Self> {
+        let left = |g: f64| {
+            let rest = (g - straight) / (1.0 - straight);
+            HenyeyGreenstein::new(rest).ok().filter(|_| rest >= 0.0)
+        };
+        let Self::Table(table) = self else {
+            let cosines = self.view(&PhaseNodes::default()).mean_cosines()?;
+            return left(cosines.at(0.0, 550.0)).map(Self::HenyeyGreenstein);
+        };
+        let nodes = PhaseNodes::default();
+        let g = self.view(&nodes).mean_cosines()?.g;
+        let functions: Vec<HenyeyGreenstein> = g.iter().map(|&g| left(g)).collect::<Option<_>>()?;
+        let view = table.view();
+        let parts = OpticsTableParts {
+            zeta: view.zeta.to_vec(),
+            wavelengths_nm: view.wavelengths_nm.to_vec(),
+            c_ext_m2: view.c_ext_m2.to_vec(),
+            c_sca_m2: view.c_sca_m2.to_vec(),
+            g: functions.iter().map(|hg| hg.mean_cosine()).collect(),
+            phase: functions.iter().flat_map(|hg| nodes.double.iter().map(|&m| hg.eval(m))).collect(),
+        };
+        OpticsTable::new(&parts).ok().map(Self::Table)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::lamp::{Beam, Lamp, LampTree};
 use crate::light::{Environment, Sun};
 use crate::light_groups::{Grouping, LightGroups, LightSource};
 use crate::material::AlphaMode;
-use crate::medium::Medium;
+use crate::medium::{LateMedium, Medium};
 use crate::sky_map::SkyMap;
 use crate::triangle::{SurfacePoint, Triangle};
 use fog_core::colour::{Rgb, upsample};
@@ -23,6 +23,8 @@ pub struct Scene {
     loaded: Arc<LoadedScene>,
     /// The fog, if any.
     pub medium: Option<Medium>,
+    /// What the fog is taken for along paths that have scattered often, if that is another.
+    pub late: Option<LateMedium>,
     /// Uniform environment, if any.
     pub environment: Option<Environment>,
     /// Surroundings with structure, if any; they shine beside the uniform ones.
@@ -85,6 +87,7 @@ impl Scene {
         let mut scene = Self {
             loaded,
             medium,
+            late: None,
             environment,
             sky: None,
             sun,
@@ -100,6 +103,14 @@ impl Scene {
             scene.light_lamps();
         }
         scene
+    }
+
+    /// The same scene whose fog is taken for a simpler one along paths that have scattered often: see [`LateMedium`]. Fog that
+    /// cannot be told so (patchy, single droplets) stays as it is.
+    #[must_use]
+    pub fn with_similar_fog(mut self) -> Self {
+        self.late = self.medium.as_ref().and_then(LateMedium::similar);
+        self
     }
 
     /// The same scene under this sky.

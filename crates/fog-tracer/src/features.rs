@@ -1,4 +1,5 @@
-//! Guides for a denoiser: what each pixel shows apart from the light on it, without noise.
+//! Guides for a denoiser: what each pixel shows apart from the light on it, without noise. Patchy fog counts as the even fog
+//! that it is in the mean: its patches show in the picture alone.
 
 use crate::truth::TRANSMITTANCE_NM;
 use fog_core::Vec3A;

@@ -4,6 +4,7 @@
 //! No file access, clock, printing or global state (DESIGN invariant 1).
 
 mod analog;
+mod budget;
 mod equiangular;
 pub mod features;
 pub mod flow;

@@ -1,8 +1,12 @@
 //! Choosing a light for next-event estimation.
 //!
-//! A sky is among them where its light is concentrated. The uniform environment is not: to connect to a light that shines alike from everywhere one would draw the
-//! direction from the phase function or the BSDF, and that is what continuing the path does.
+//! A sky is among them where its light is concentrated. The uniform environment is not: to connect to a light that shines
+//! alike from everywhere one would draw the direction from the phase function or the BSDF, and that is what continuing the
+//! path does.
 
+mod haze;
+
+use self::haze::Haze;
 use crate::path::Lanes;
 use fog_core::Vec3A;
 use fog_core::colour::upsample;
@@ -22,12 +26,14 @@ const EVEN_SKY: f32 = 0.2;
 const LAMP_LEVEL_M: f32 = 100.0;
 
 /// Probabilities of aiming at the sun, the sky, the emitters, the lamps and the beams; what they leave is no connection at all.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct LightMix {
     sun: f32,
     sky: f32,
     compact: f32,
     broad: f32,
+    /// What the fog leaves of broad emitters' light, by altitude.
+    haze: Haze,
     lamps: f32,
     beams: f32,
     shadow_scale: f32,
@@ -82,6 +88,7 @@ impl LightMix {
             sky: share * uneven,
             compact: if compact { share } else { 0.0 },
             broad: if broad { share } else { 0.0 },
+            haze: Haze::new(scene),
             lamps: if lamps { share } else { 0.0 },
             beams: if beams { share } else { 0.0 },
             shadow_scale: if level > 0.0 { 1.0 / (0.02 * level) } else { 1.0 },
@@ -106,11 +113,16 @@ impl LightMix {
     /// Probability of aiming at emitters of this breadth.
     #[inline]
     fn emitters(&self, scene: &Scene, breadth: Breadth, from: Vec3A) -> f32 {
-        let share = match breadth {
+        let aim = || scene.emitters().aim(breadth, from);
+        match breadth {
             Breadth::Compact => self.compact,
-            Breadth::Broad => self.broad,
-        };
-        if share == 0.0 { 0.0 } else { share * scene.emitters().aim(breadth, from) }
+            Breadth::Broad if self.broad == 0.0 => 0.0,
+            // Nearly all of them in a street: looked up first.
+            Breadth::Broad => match aim() {
+                0.0 => 0.0,
+                aim => self.broad * aim * self.haze.at(from.y),
+            },
+        }
     }
 
     /// Density in 1/sr with which [`LightMix::sample`] finds, from the start of a ray, the emitting point that the ray hits

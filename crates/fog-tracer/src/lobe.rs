@@ -45,7 +45,8 @@ pub(crate) fn sun_share(before: Vec3A, sun: Vec3A, transmittance: f32) -> f32 {
 }
 
 impl<'a> FogLobe<'a> {
-    /// Scattering of a path that travelled along `before`, by `scatterer`. `sun` is the direction to the sun and its beam's transmittance to here, which must not depend on the path's wavelengths.
+    /// Scattering of a path that travelled along `before`, by `scatterer`. `sun` is the direction to the sun and its beam's
+    /// transmittance to here, which must not depend on the path's wavelengths.
     #[inline]
     pub(crate) fn new(
         phase: &'a PhaseView<'a>,
@@ -90,5 +91,65 @@ impl<'a> FogLobe<'a> {
         let after = (warp::frame(axis) * local).normalize();
         let value = if towards_sun { self.value(after) } else { self.mix(self.at(m), after) };
         (after, value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fog_core::phase::HenyeyGreenstein;
+    use fog_core::spectrum::Wavelengths;
+    use fog_scene::phase::{Phase, PhaseNodes};
+
+    /// Cells along the axis and around it, and midpoints of the quadrature in each.
+    const ROWS: usize = 16;
+    const COLUMNS: usize = 12;
+    const FINE: usize = 12;
+    const SAMPLES: u64 = 400_000;
+
+    #[test]
+    fn directions_follow_their_density() {
+        let phase = Phase::HenyeyGreenstein(HenyeyGreenstein::new(0.5).expect("g"));
+        let (nodes, wavelengths) = (PhaseNodes::default(), Wavelengths::monochromatic(550.0));
+        let view = phase.view(&nodes);
+        let mut rng = PathRng::new(61, 0, 0);
+        let scatterer = view.scatterer(0.5, &view.lanes(&wavelengths), &mut rng);
+        let before = Vec3A::new(0.3, -0.5, 0.8).normalize();
+        let aside = Vec3A::new(-0.4, 0.9, 0.1).normalize();
+        let near = (before + 0.05 * aside).normalize();
+        for sun in [None, Some((aside, 1.0)), Some((near, 0.8)), Some((aside, 0.01))] {
+            let lobe = FogLobe::new(&view, &scatterer, before, sun);
+            let local = warp::frame(before).transpose();
+            let cell = |w: Vec3A| {
+                let row = ((0.5 * (1.0 - w.z) * ROWS as f32) as usize).min(ROWS - 1);
+                let turn = math::f32::atan2(w.y, w.x) / math::TAU_F32 + 0.5;
+                row * COLUMNS + ((turn * COLUMNS as f32) as usize).min(COLUMNS - 1)
+            };
+            let mut expected = vec![0.0; ROWS * COLUMNS];
+            let (rows, columns) = (ROWS * FINE, COLUMNS * FINE);
+            for i in 0..rows {
+                let z = 1.0 - 2.0 * (i as f32 + 0.5) / rows as f32;
+                for j in 0..columns {
+                    let phi = ((j as f32 + 0.5) / columns as f32 - 0.5) * math::TAU_F32;
+                    let w = warp::spherical(z, (1.0 - z * z).sqrt(), phi);
+                    let density = f64::from(lobe.value(local.transpose() * w).density[0]);
+                    expected[cell(w)] += density * 2.0 * math::TAU / (rows * columns) as f64 * SAMPLES as f64;
+                }
+            }
+            let total = expected.iter().sum::<f64>() / SAMPLES as f64;
+            assert!((total - 1.0).abs() < 2e-4, "{sun:?}: the density integrates to {total}");
+            let mut observed = vec![0u64; expected.len()];
+            for _ in 0..SAMPLES {
+                let (after, value) = lobe.sample(&mut rng);
+                let again = lobe.value(after).density[0];
+                assert!((value.density[0] / again - 1.0).abs() < 1e-3, "{} for {again}", value.density[0]);
+                observed[cell(local * after)] += 1;
+            }
+            // Chi-square has a mean of its degrees of freedom, and a variance of twice as many.
+            let off = |(&o, &e): (&u64, &f64)| (o as f64 - e).powi(2) / e;
+            let chi_square: f64 = observed.iter().zip(&expected).map(off).sum();
+            let freedom = (ROWS * COLUMNS - 1) as f64;
+            assert!(chi_square < freedom + 5.0 * (2.0 * freedom).sqrt(), "{sun:?}: {chi_square}");
+        }
     }
 }

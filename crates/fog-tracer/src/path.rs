@@ -12,13 +12,15 @@ mod connect;
 mod glow;
 mod layer;
 mod patchy;
+mod told;
 
 use self::glow::Flight;
+use crate::equiangular::Segment;
 use crate::layer_light::{LayerLanes, LayerLight};
 use crate::lights::LightMix;
 use crate::lobe::FogLobe;
 use crate::settings::Settings;
-use crate::watch::{FlightEnd, Step, Watch, Weights};
+use crate::watch::{Step, Watch, Weights};
 use fog_core::bands::BandLanes;
 use fog_core::colour::Observer;
 use fog_core::patchiness::Crossed;
@@ -28,6 +30,7 @@ use fog_core::spectrum::{Spectrum, Wavelengths};
 use fog_core::{Vec3A, math};
 use fog_scene::Hit;
 use fog_scene::camera::Ray;
+use fog_scene::emitters::Breadth;
 use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
@@ -37,6 +40,8 @@ use fog_scene::sky_map::SkyLanes;
 
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
+/// The same without an environment; until [`ROULETTE_DEPTH`] by the throughput alone, wherever the path is.
+const ROULETTE_DEPTH_DARK: u32 = 1;
 /// Smallest probability of survival: bounds the weight of survivors.
 const ROULETTE_MIN: f32 = 0.5;
 /// The same where the layer tells what a path is worth.
@@ -45,6 +50,9 @@ const ROULETTE_MIN_KNOWN: f32 = 0.3;
 const ROULETTE_BELOW_SKY: f32 = 0.3;
 /// The same without an environment, where late parts of a path seldom meet light (both measured on the quickstart).
 const ROULETTE_BELOW: f32 = 1.0;
+/// Paths that go on from the first collision where broad emitters are all the light: they fill the view of a droplet, and what
+/// tells is into how many directions one looks.
+const BRANCHES: u64 = 3;
 
 /// Largest f32 below 1.
 const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
@@ -54,13 +62,18 @@ const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
 pub struct PathTracer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) medium: Option<MediumView<'a>>,
+    /// The fog of paths that have scattered often, and after how many scatterings.
+    late: Option<(MediumView<'a>, u32)>,
     pub(crate) observer: &'a Observer,
     pub(crate) lights: LightMix,
     pub(crate) settings: Settings,
     /// One wavelength that every path uses where its choices must not depend on its own.
     reference_lanes: Option<ProfileLanes>,
     pub(crate) roulette_below: f32,
+    roulette_depth: u32,
     layer_light: Option<LayerLight>,
+    /// Paths that go on from the first collision.
+    pub(crate) branches: u64,
     /// Of the fog among lamps.
     phase_angles: Option<PhaseAngles>,
 }
@@ -78,6 +91,7 @@ pub struct PathRadiance {
 }
 
 /// State of a path between two events.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     pub(crate) origin: Vec3A,
     /// The last event's place, of which `origin` is a bit off at surfaces: from where lights were chosen.
@@ -88,6 +102,8 @@ pub(crate) struct Path {
     r_l: Spectrum,
     /// Scatterings so far.
     depth: u32,
+    /// Part of `beta` that is for being one of several branches.
+    share: f32,
     /// What the last flight crossed, in patchy fog.
     crossed: Option<Crossed>,
 }
@@ -99,6 +115,7 @@ pub(crate) struct Lanes {
     /// Colour of the sun.
     pub(crate) sun: Spectrum,
     pub(crate) medium: Option<MediumLanes>,
+    late: Option<MediumLanes>,
     /// In the layer's own light; `None` where paths do not use it.
     layer: Option<LayerLanes>,
 }
@@ -106,6 +123,30 @@ pub(crate) struct Lanes {
 impl Lanes {
     pub(crate) fn sky(&self) -> SkyLanes<'_> {
         SkyLanes { basis: &self.basis, bands: &self.bands }
+    }
+}
+
+/// A path at its first collision, from where several branches go on.
+struct Fork {
+    path: Path,
+    t: f64,
+    tau: f64,
+    /// The one that goes now.
+    branch: u64,
+    of: u64,
+}
+
+impl Fork {
+    /// The next branch, if one is left.
+    #[inline]
+    fn next(&mut self, rng: &mut PathRng, watch: &mut impl Watch) -> Option<(Path, Event)> {
+        self.branch += 1;
+        if self.branch >= self.of {
+            return None;
+        }
+        rng.branch(self.branch);
+        watch.see(|| Step::Branch { branch: self.branch, of: self.of });
+        Some((self.path, Event::Collision { t: self.t, tau: self.tau }))
     }
 }
 
@@ -122,22 +163,31 @@ impl<'a> PathTracer<'a> {
     pub fn new(scene: &'a Scene, observer: &'a Observer, settings: Settings) -> Self {
         let medium = scene.medium.as_ref().map(|m| m.view());
         let all = Wavelengths::monochromatic(550.0);
+        let late = scene.late.as_ref().map(|late| (late.medium.view(), late.after));
         let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
         let surrounded = scene.environment.is_some() || scene.sky.is_some();
-        let roulette_below = if surrounded { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
+        let (roulette_below, roulette_depth) = if surrounded {
+            (ROULETTE_BELOW_SKY, ROULETTE_DEPTH)
+        } else {
+            (ROULETTE_BELOW, ROULETTE_DEPTH_DARK)
+        };
         let lights = LightMix::new(scene);
         let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
+        let branches = if !surrounded && scene.emitters().has(Breadth::Broad) { BRANCHES } else { 1 };
         let among_lamps = medium.as_ref().filter(|_| lights.lamp_probability() > 0.0);
         let phase_angles = among_lamps.map(|m| PhaseAngles::new(&m.phase));
         Self {
             scene,
             medium,
+            late,
             observer,
             lights,
             settings,
             reference_lanes,
             roulette_below,
+            roulette_depth,
             layer_light,
+            branches,
             phase_angles,
         }
     }
@@ -170,10 +220,11 @@ impl<'a> PathTracer<'a> {
         let lanes = self.lanes(wavelengths);
         let mut path = Path::new(ray.origin, ray.direction);
         let mut out = PathRadiance { radiance: Spectrum::ZERO, airlight: false, glow: Spectrum::ZERO };
+        let mut fork: Option<Fork> = None;
         let mut u = f64::from(first_flight);
         loop {
             // Fly to the next collision in the fog, or to a surface before it.
-            let (event, end) = self.fly(&mut path, &lanes, u);
+            let (mut event, end) = self.fly(&mut path, &lanes, u);
             watch.see(|| self.flight(&path, &lanes, u, &event));
             let segment = self.lit_segment(&path, end);
             if let Some(segment) = &segment {
@@ -184,64 +235,114 @@ impl<'a> PathTracer<'a> {
                     out.radiance += glow;
                 }
             }
-            let goes_on = match event {
-                Event::Escape => {
-                    self.pass(&mut path, &lanes, f64::INFINITY);
-                    let sum = self.escape(&path, &lanes, watch);
-                    watch.see(|| Step::Escape { added: sum });
-                    out.radiance += sum;
-                    let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
-                    let expected = self.layer_beside(&path, &lanes, beyond);
-                    self.add_difference(&mut out, expected, Spectrum::ZERO, watch);
-                    false
-                }
-                Event::Surface(hit) => {
-                    self.pass(&mut path, &lanes, f64::from(hit.t));
-                    let surface = self.scene.surface(&hit, path.direction, &lanes.basis);
-                    let sum = self.emitted(&path, &hit, &surface);
-                    let expected = self.layer_beside(&path, &lanes, f64::from(surface.point.position.y));
-                    watch.see(|| Step::surface(&hit, &surface, sum));
-                    watch.light(LightSource::Emitter(hit.triangle), sum, false);
-                    out.radiance += sum;
-                    self.may_scatter(&path, watch) && {
-                        out.radiance += self.lights_at_surface(&path, &surface, &lanes, rng, watch);
-                        let before = path.direction;
-                        let scattered = scatter_at_surface(&mut path, &surface, rng);
-                        watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
-                        let after = if scattered { self.layer_ahead(&path, &lanes) } else { Spectrum::ZERO };
-                        self.add_difference(&mut out, expected, after, watch);
-                        scattered
+            if let Event::Collision { t, tau } = event
+                && path.depth == 0
+            {
+                out.airlight = true;
+                fork = self.fork(&mut path, t, tau);
+            }
+            // Scatter, or end here: then the next branch scatters where the first flight ended.
+            loop {
+                let goes_on = match event {
+                    Event::Escape => self.leave(&mut path, &lanes, &mut out, watch),
+                    Event::Surface(hit) => self.meet(&mut path, &hit, &lanes, &mut out, rng, watch),
+                    Event::Collision { t, tau } => {
+                        self.scatter(&mut path, [t, tau], segment.as_ref(), &lanes, &mut out, rng, watch)
                     }
+                };
+                if goes_on && self.survives_roulette(&mut path, rng, watch) {
+                    break;
                 }
-                Event::Collision { t, tau } => {
-                    out.airlight |= path.depth == 0;
-                    self.may_scatter(&path, watch) && {
-                        let before = (path.r_u, path.direction);
-                        let scatterer = self.collide(&mut path, &lanes, t, tau, rng);
-                        watch.see(|| self.collision(&path, &lanes, &scatterer));
-                        let flight = segment.as_ref().map(|segment| Flight {
-                            segment,
-                            t,
-                            before: before.0
-                                * scatterer.probability_ratio
-                                * (1.0 / self.flight_density(&path, &lanes, tau)),
-                        });
-                        let flight = flight.as_ref();
-                        out.radiance +=
-                            self.scatter_in_fog(&mut path, &scatterer, flight, &lanes, rng, watch);
-                        watch.see(|| path.turn(before.1));
-                        let after = self.layer_at_collision(&path, &lanes, rng);
-                        self.add_difference(&mut out, Spectrum::ZERO, after, watch);
-                        true
-                    }
-                }
-            };
-            let roulette = self.roulette(&path);
-            if !goes_on || !survives_roulette(&mut path, roulette, rng, watch) {
-                return out;
+                let Some(next) = fork.as_mut().and_then(|fork| fork.next(rng, watch)) else { return out };
+                (path, event) = next;
             }
             u = rng.flight();
         }
+    }
+
+    /// What is left for further branches at the first collision.
+    #[inline(always)]
+    fn fork(&self, path: &mut Path, t: f64, tau: f64) -> Option<Fork> {
+        if self.branches == 1 {
+            return None;
+        }
+        path.share = 1.0 / self.branches as f32;
+        path.beta *= path.share;
+        Some(Fork { path: *path, t, tau, branch: 0, of: self.branches })
+    }
+
+    /// A path leaves the scene; false, for it ends there.
+    #[inline(always)]
+    fn leave(&self, path: &mut Path, lanes: &Lanes, out: &mut PathRadiance, watch: &mut impl Watch) -> bool {
+        self.pass(path, lanes, f64::INFINITY);
+        let sum = self.escape(path, lanes, watch);
+        watch.see(|| Step::Escape { added: sum });
+        out.radiance += sum;
+        let beyond = f64::INFINITY.copysign(f64::from(path.direction.y));
+        let expected = self.layer_beside(path, lanes, beyond);
+        self.add_difference(out, expected, Spectrum::ZERO, watch);
+        false
+    }
+
+    /// A path meets a surface; false if it ends there.
+    #[inline(always)]
+    fn meet(
+        &self,
+        path: &mut Path,
+        hit: &Hit,
+        lanes: &Lanes,
+        out: &mut PathRadiance,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> bool {
+        self.pass(path, lanes, f64::from(hit.t));
+        let surface = self.scene.surface(hit, path.direction, &lanes.basis);
+        let sum = self.emitted(path, hit, &surface);
+        let expected = self.layer_beside(path, lanes, f64::from(surface.point.position.y));
+        watch.see(|| Step::surface(hit, &surface, sum));
+        watch.light(LightSource::Emitter(hit.triangle), sum, false);
+        out.radiance += sum;
+        if !self.may_scatter(path, watch) {
+            return false;
+        }
+        out.radiance += self.lights_at_surface(path, &surface, lanes, rng, watch);
+        let before = path.direction;
+        let scattered = scatter_at_surface(path, &surface, rng);
+        watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
+        let after = if scattered { self.layer_ahead(path, lanes) } else { Spectrum::ZERO };
+        self.add_difference(out, expected, after, watch);
+        scattered
+    }
+
+    /// A path meets a droplet at distance `t`, where the hero has crossed `tau`; false if it ends there.
+    #[expect(clippy::too_many_arguments, reason = "a path, where it is, and who hears of it")]
+    #[inline(always)]
+    fn scatter(
+        &self,
+        path: &mut Path,
+        [t, tau]: [f64; 2],
+        segment: Option<&Segment>,
+        lanes: &Lanes,
+        out: &mut PathRadiance,
+        rng: &mut PathRng,
+        watch: &mut impl Watch,
+    ) -> bool {
+        if !self.may_scatter(path, watch) {
+            return false;
+        }
+        let before = (path.r_u, path.direction);
+        let scatterer = self.collide(path, lanes, t, tau, rng);
+        watch.see(|| self.collision(path, lanes, &scatterer));
+        let flight = segment.map(|segment| Flight {
+            segment,
+            t,
+            before: before.0 * scatterer.probability_ratio * (1.0 / self.flight_density(path, lanes, tau)),
+        });
+        out.radiance += self.scatter_in_fog(path, &scatterer, flight.as_ref(), lanes, rng, watch);
+        watch.see(|| path.turn(before.1));
+        let after = self.layer_at_collision(path, lanes, rng);
+        self.add_difference(out, Spectrum::ZERO, after, watch);
+        true
     }
 
     /// What the wavelengths of a path need to be looked up.
@@ -253,7 +354,18 @@ impl<'a> PathTracer<'a> {
             bands,
             sun: self.scene.sun.as_ref().map_or(Spectrum::ONE, |sun| bands.gather(&sun.colour.0)),
             medium: self.medium.as_ref().map(|m| m.lanes(wavelengths)),
+            late: self.late.as_ref().map(|(m, _)| m.lanes(wavelengths)),
             layer: self.layer_lanes(wavelengths),
+        }
+    }
+
+    /// The fog that a path flies and scatters in after so many scatterings, with its wavelengths there.
+    #[inline(always)]
+    fn fog<'b>(&'b self, depth: u32, lanes: &'b Lanes) -> Option<(&'b MediumView<'a>, &'b MediumLanes)> {
+        let late = self.late.as_ref().zip(lanes.late.as_ref());
+        match late {
+            Some(((medium, after), lanes)) if depth >= *after => Some((medium, lanes)),
+            _ => self.medium.as_ref().zip(lanes.medium.as_ref()),
         }
     }
 
@@ -266,7 +378,7 @@ impl<'a> PathTracer<'a> {
             path.crossed = Some(crossed);
             return (event, end);
         }
-        let collision = self.medium.as_ref().zip(lanes.medium.as_ref()).and_then(|(medium, lanes)| {
+        let collision = self.fog(path.depth, lanes).and_then(|(medium, lanes)| {
             let tau = math::neg_ln(1.0 - u);
             let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
             medium.profile.free_flight(y, dy, f64::INFINITY, tau, &lanes.profile).map(|t| (t, tau))
@@ -287,7 +399,7 @@ impl<'a> PathTracer<'a> {
     /// Weights a flight of length `t` without collision: transmittance at each wavelength over the hero's.
     #[inline(always)]
     fn pass(&self, path: &mut Path, lanes: &Lanes, t: f64) {
-        let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else { return };
+        let Some((medium, lanes)) = self.fog(path.depth, lanes) else { return };
         if medium.grey && !self.lights.any() {
             return;
         }
@@ -305,7 +417,7 @@ impl<'a> PathTracer<'a> {
     /// Moves to a collision at distance `t`, where the hero has crossed `tau`; returns what the path collides with.
     #[inline(always)]
     fn collide(&self, path: &mut Path, lanes: &Lanes, t: f64, tau: f64, rng: &mut PathRng) -> Scatterer {
-        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let (medium, lanes) = self.fog(path.depth, lanes).expect("collision needs fog");
         let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
         let even_y = || (y + t * dy).clamp(medium.profile.base_y(), medium.profile.top_y());
         let y_hit = path.crossed.map_or_else(even_y, |crossed| crossed.even_y);
@@ -337,7 +449,7 @@ impl<'a> PathTracer<'a> {
         rng: &mut PathRng,
         watch: &mut impl Watch,
     ) -> Spectrum {
-        let medium = self.medium.as_ref().expect("collision needs fog");
+        let (medium, _) = self.fog(path.depth, lanes).expect("collision needs fog");
         let sun = self.scene.sun.zip(self.reference_lanes.as_ref()).map(|(sun, reference)| {
             let (y, dy) = (f64::from(path.origin.y), f64::from(sun.direction.y));
             let tau = medium.profile.optical_depth(y, dy, f64::INFINITY, reference);
@@ -395,6 +507,31 @@ impl<'a> PathTracer<'a> {
         path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
+    /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
+    #[inline(always)]
+    fn survives_roulette(&self, path: &mut Path, rng: &mut PathRng, watch: &mut impl Watch) -> bool {
+        let mean = path.r_u.mean();
+        if path.depth > self.roulette_depth {
+            let [below, least] = self.roulette(path);
+            let survival = (path.beta.max_lane() / (mean * below * path.share)).max(least);
+            if survival < 1.0 {
+                let survived = rng.uniform() < survival;
+                watch.see(|| Step::Roulette { survival, survived });
+                if !survived {
+                    return false;
+                }
+                path.beta *= 1.0 / survival;
+            }
+        }
+        if !(1e-6..1e6).contains(&mean) {
+            let scale = 1.0 / mean;
+            path.beta *= scale;
+            path.r_u *= scale;
+            path.r_l *= scale;
+        }
+        true
+    }
+
     /// False if another scattering would make the path longer than was asked for.
     #[inline]
     fn may_scatter(&self, path: &Path, watch: &mut impl Watch) -> bool {
@@ -404,43 +541,12 @@ impl<'a> PathTracer<'a> {
         }
         may
     }
-
-    /// A flight for a watch.
-    fn flight(&self, path: &Path, lanes: &Lanes, u: f64, event: &Event) -> Step {
-        let (length_m, end) = match event {
-            Event::Surface(hit) => (f64::from(hit.t), FlightEnd::Surface),
-            Event::Collision { t, .. } => (*t, FlightEnd::Fog),
-            Event::Escape => (f64::INFINITY, FlightEnd::Nowhere),
-        };
-        let (y, dy) = (f64::from(path.origin.y), f64::from(path.direction.y));
-        let fog = self.medium.as_ref().zip(lanes.medium.as_ref());
-        let even =
-            || fog.map(|(medium, lanes)| medium.profile.optical_depth(y, dy, length_m, &lanes.profile));
-        let tau = path.crossed.map_or_else(even, |crossed| Some(crossed.depth));
-        Step::Flight {
-            origin: path.origin,
-            direction: path.direction,
-            length_m,
-            drawn_tau: -math::f64::ln(1.0 - u),
-            tau: tau.unwrap_or(Spectrum::ZERO),
-            end,
-        }
-    }
-
-    /// A collision for a watch.
-    fn collision(&self, path: &Path, lanes: &Lanes, scatterer: &Scatterer) -> Step {
-        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
-        let (y, density) = self.even_place(path);
-        let sigma_t = medium.profile.sigma_t(y, &lanes.profile) * density;
-        let here = [sigma_t, medium.profile.albedo(y, &lanes.profile)];
-        Step::collision(path.origin, here, scatterer, path.weights())
-    }
 }
 
 impl Path {
     pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
         let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
-        Self { origin, vertex: origin, direction, beta, r_u, r_l, depth: 0, crossed: None }
+        Self { origin, vertex: origin, direction, beta, r_u, r_l, depth: 0, share: 1.0, crossed: None }
     }
 
     fn weights(&self) -> Weights {
@@ -488,33 +594,4 @@ pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut P
     (path.vertex, path.origin, path.direction) = (turn.vertex, turn.origin, turn.direction);
     path.depth += 1;
     !path.beta.is_zero()
-}
-
-/// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
-#[inline]
-fn survives_roulette(
-    path: &mut Path,
-    [below, least]: [f32; 2],
-    rng: &mut PathRng,
-    watch: &mut impl Watch,
-) -> bool {
-    let mean = path.r_u.mean();
-    if path.depth > ROULETTE_DEPTH {
-        let survival = (path.beta.max_lane() / (mean * below)).max(least);
-        if survival < 1.0 {
-            let survived = rng.uniform() < survival;
-            watch.see(|| Step::Roulette { survival, survived });
-            if !survived {
-                return false;
-            }
-            path.beta *= 1.0 / survival;
-        }
-    }
-    if !(1e-6..1e6).contains(&mean) {
-        let scale = 1.0 / mean;
-        path.beta *= scale;
-        path.r_u *= scale;
-        path.r_l *= scale;
-    }
-    true
 }

@@ -1,10 +1,11 @@
 //! The tile scheduler: pixels in parallel, each a function of (scene, camera, settings, seed) alone.
 
+use crate::budget::{means, pilot, share_out, spread};
 use crate::groups::GroupLight;
 use crate::path::{PathRadiance, PathTracer};
 use crate::rounds::{Round, next_round};
 use crate::seen_lamps::seen_lamps;
-use crate::settings::Settings;
+use crate::settings::{Settings, Stop};
 use crate::truth::truth;
 use fog_core::colour::{Observer, Rgb};
 use fog_core::random::{PathRng, stratified};
@@ -84,12 +85,27 @@ where
     P: Fn(usize, Range<u64>, &mut [Films], usize) + Sync,
 {
     let (count, frames) = (films[0].pixels.len(), films.len() as u64);
-    let all = (0..count).map(|i| (i, settings.samples)).collect();
-    let mut round = Round { pixels: all, expected: settings.samples * count as u64 };
+    let samples = settings.samples;
+    if let Some(half) = pilot(samples).filter(|_| settings.stop == Some(Stop::Budget)) {
+        trace(films, &Round::of_all(count, 0, half), pixel, progress)?;
+        let first: Vec<_> = films.iter().map(|films| means(&films.pixels)).collect();
+        trace(films, &Round::of_all(count, half, 2 * half), pixel, progress)?;
+        // Frames that share paths share what each of them wants.
+        let mut wanted = vec![0.0; count];
+        for (first, films) in first.iter().zip(films.iter()) {
+            for (sum, wants) in wanted.iter_mut().zip(spread(first, &films.pixels, width)) {
+                *sum += wants;
+            }
+        }
+        let round = share_out(&wanted, samples, 2 * half);
+        progress(Work::Left(round.expected * frames));
+        return trace(films, &round, pixel, progress);
+    }
+    let mut round = Round::of_all(count, 0, samples);
     while !round.pixels.is_empty() {
         trace(films, &round, pixel, progress)?;
-        let Some(stop) = &settings.stop else { break };
-        let next = films.iter().map(|films| next_round(&films.pixels, width, stop));
+        let Some(Stop::Noise(target)) = &settings.stop else { break };
+        let next = films.iter().map(|films| next_round(&films.pixels, width, target));
         round = next.reduce(Round::union).unwrap_or_default();
         progress(Work::Left(round.expected * frames));
     }
@@ -221,7 +237,7 @@ impl PathTracer<'_> {
     pub(crate) fn start(&self, camera: &Camera, i: usize, seed: u64, sample: u64) -> Option<Start> {
         let (x, y) = (i % camera.width as usize, i / camera.width as usize);
         // The first seven dimensions are stratified over the pixel's samples, the rest a plain random stream.
-        let first = stratified(seed, i as u64, sample);
+        let first = stratified(seed, i as u64, sample, self.branches);
         let [dx, dy] = first.pixel.map(f64::from);
         let image_point = [x as f64 + dx, y as f64 + dy];
         let wavelengths = match self.settings.wavelength_nm {
@@ -233,7 +249,7 @@ impl PathTracer<'_> {
             ray: camera.ray(image_point[0], image_point[1])?,
             wavelengths,
             flight: first.flight,
-            rng: PathRng::new(seed, i as u64, sample).with_first(first.turn, first.second_flight),
+            rng: PathRng::new(seed, i as u64, sample).with_first(first.turns),
         })
     }
 

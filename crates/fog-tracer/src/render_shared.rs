@@ -40,7 +40,13 @@ pub fn render_shared(
     seed: u64,
     progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Option<Vec<Result<Frame, FrameError>>> {
-    let base = PathTracer::new(scene, observer, *settings);
+    // Paths that several fogs share go by those, not by the scene's.
+    let bare = (media.len() > 1).then(|| {
+        let mut scene = scene.clone();
+        scene.medium = None;
+        scene
+    });
+    let base = PathTracer::new(bare.as_ref().unwrap_or(scene), observer, *settings);
     let names = group_names(scene);
     let pass = Pass {
         tracer: SharedTracer::new(base, media),

@@ -12,7 +12,7 @@
 //! seventh; the first round keeps single pixels from stopping on next to nothing. `stopping_biases_little` measures what
 //! is left.
 
-use crate::settings::Stop;
+use crate::settings::NoiseTarget;
 use fog_core::moments::Moments;
 use fog_film::{PixelFilm, noise_floor, relative_error};
 use std::collections::BTreeMap;
@@ -32,6 +32,12 @@ pub(crate) struct Round {
 }
 
 impl Round {
+    /// All of so many pixels, which have `done` samples.
+    pub(crate) fn of_all(count: usize, done: u64, until: u64) -> Self {
+        let pixels = (0..count).map(|i| (i, until)).collect();
+        Self { pixels, expected: (until - done) * count as u64 }
+    }
+
     /// What is to be traced for two frames that share their samples: each pixel until both are served.
     pub(crate) fn union(self, other: Self) -> Self {
         let mut pixels: BTreeMap<usize, u64> = self.pixels.into_iter().collect();
@@ -46,7 +52,7 @@ impl Round {
 
 /// Judges the pixels of a frame. Counts grow by a quarter at least and to their double at most, since an estimate from n
 /// samples is not worth following much further than that.
-pub(crate) fn next_round(films: &[PixelFilm], width: usize, stop: &Stop) -> Round {
+pub(crate) fn next_round(films: &[PixelFilm], width: usize, stop: &NoiseTarget) -> Round {
     let mean = films.iter().map(|f| f.luminance().mean()).sum::<f64>() / films.len().max(1) as f64;
     let floor = noise_floor(mean);
     let own: Vec<f64> = films.iter().map(|f| relative_variance(f.luminance(), floor)).collect();
@@ -71,7 +77,7 @@ fn relative_variance(luminance: &Moments, floor: f64) -> f64 {
 }
 
 /// Weighted means over the neighbourhood of each pixel; at the frame's border, over the part inside.
-fn smooth(values: &[f64], width: usize) -> Vec<f64> {
+pub(crate) fn smooth(values: &[f64], width: usize) -> Vec<f64> {
     let height = values.len() / width.max(1);
     let rows: Vec<f64> =
         (0..values.len()).map(|i| line(i % width, width, |x| values[i - i % width + x])).collect();
@@ -99,7 +105,7 @@ mod tests {
     const PIXELS: usize = WIDTH * 64;
 
     /// Runs all rounds on pixels whose samples come from `sample`.
-    fn run(first: u64, stop: &Stop, sample: impl Fn(usize, &mut PathRng) -> f32) -> Vec<PixelFilm> {
+    fn run(first: u64, stop: &NoiseTarget, sample: impl Fn(usize, &mut PathRng) -> f32) -> Vec<PixelFilm> {
         let mut films = vec![PixelFilm::default(); PIXELS];
         let mut round = Round { pixels: (0..PIXELS).map(|i| (i, first)).collect(), expected: 0 };
         while !round.pixels.is_empty() {
@@ -129,7 +135,7 @@ mod tests {
             let base = if i % WIDTH < 20 { 0.0 } else { 1.0 };
             base + spread(i) * (2.0 * rng.uniform() - 1.0)
         };
-        let stop = Stop { noise: 0.02, max_samples: 500 };
+        let stop = NoiseTarget { noise: 0.02, max_samples: 500 };
         let films = run(16, &stop, sample);
         for (i, film) in films.iter().enumerate() {
             let (m, n) = (film.luminance(), film.samples());
@@ -151,7 +157,7 @@ mod tests {
             let u = rng.uniform_f64();
             if u < 0.02 { 0.5 - 25.0 * math::f64::ln(1.0 - rng.uniform_f64()) as f32 } else { 0.5 }
         };
-        let films = run(64, &Stop { noise: 0.1, max_samples: 1 << 20 }, sample);
+        let films = run(64, &NoiseTarget { noise: 0.1, max_samples: 1 << 20 }, sample);
         let (got, error) = mean(&films);
         println!("mean {got} ± {error} for 1");
         assert!(error < 0.002, "too few to tell: {error}");
@@ -183,7 +189,7 @@ mod tests {
                 film.add_mono(if i != 12 && s == 0 { 64.0 } else { 1.0 }, 0.0);
             }
         }
-        let round = next_round(&films, 5, &Stop { noise: 0.1, max_samples: 1000 });
+        let round = next_round(&films, 5, &NoiseTarget { noise: 0.1, max_samples: 1000 });
         assert!(round.pixels.contains(&(12, 128)), "{round:?}");
         assert!(round.expected > 25 * 64, "{round:?}");
     }

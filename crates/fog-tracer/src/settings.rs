@@ -5,7 +5,7 @@
 pub struct Settings {
     /// Paths per pixel; with `stop` the first ones, at least 2.
     pub samples: u64,
-    /// Samples each pixel on until its noise is low.
+    /// Gives some pixels more samples than others.
     pub stop: Option<Stop>,
     /// Longest path in edges (1 = only light that comes straight from its source), or no limit.
     pub max_depth: Option<u32>,
@@ -15,7 +15,20 @@ pub struct Settings {
 
 /// When enough of a pixel has been sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub enum Stop {
+    /// When its noise is low.
+    Noise(NoiseTarget),
+    /// When the frame's paths, [`Settings::samples`] times its pixels, are shared out so that the mean relative squared error
+    /// is least. A pixel gets [`MOST_OF_BUDGET`] times `samples` at most.
+    Budget,
+}
+
+/// Share of an even one that a pixel gets at most with [`Stop::Budget`].
+pub const MOST_OF_BUDGET: u64 = 16;
+
+/// Noise that is low enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoiseTarget {
     /// Relative standard error of the luminance to be reached (above [`fog_film::noise_floor`]), above 0.
     pub noise: f64,
     /// Paths per pixel after which sampling ends all the same.

@@ -83,7 +83,7 @@ enum Event {
 }
 
 impl<'a> SharedTracer<'a> {
-    /// `base` is the scene with any fog, `media` are 1 to [`MAX_FOGS`] fogs that can be shared.
+    /// `base` is the scene with any fog or none, `media` are 1 to [`MAX_FOGS`] fogs that can be shared.
     pub(crate) fn new(base: PathTracer<'a>, media: &'a [Medium]) -> Self {
         let media: Vec<MediumView<'a>> = media.iter().map(Medium::view).collect();
         let all = Wavelengths::monochromatic(base.settings.wavelength_nm.unwrap_or(550.0));

@@ -175,6 +175,13 @@ pub enum Step {
         /// After the turn.
         weights: Weights,
     },
+    /// Went back to the first collision, from where several branches go on.
+    Branch {
+        /// The one that begins, from 1: the first has ended before it.
+        branch: u64,
+        /// How many there are.
+        of: u64,
+    },
     /// Took the light that the layer of fog would have by itself for what lies ahead, instead of what was taken before.
     Layer {
         /// What the path adds to the sum: the difference.

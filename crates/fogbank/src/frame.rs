@@ -15,11 +15,11 @@ use crate::sensor::{self, Chain};
 use fog_core::Vec3A;
 use fog_dataset::{CameraPicture, ClearPicture, DenoisedPicture};
 use fog_film::Frame;
-use fog_plan::{CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
+use fog_plan::{Allocate, Approximation, CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
 use fog_scene::camera::{Camera, Pose, Shutter};
 use fog_scene::scene::Scene;
 use fog_tracer::render::Work;
-use fog_tracer::settings::{Settings, Stop};
+use fog_tracer::settings::{NoiseTarget, Settings, Stop};
 
 /// A rendered frame and its record.
 #[derive(Clone, Debug)]
@@ -83,10 +83,12 @@ pub(crate) fn pose(position_m: [f64; 3], [heading, pitch, roll]: [f64; 3]) -> Po
 
 /// What the tracer is asked for.
 pub(crate) fn settings(spec: &FrameSpec) -> Settings {
-    let stop = |s: StopSpec| Stop { noise: s.noise, max_samples: u64::from(s.max_samples) };
+    let target =
+        |s: StopSpec| Stop::Noise(NoiseTarget { noise: s.noise, max_samples: u64::from(s.max_samples) });
+    let budget = spec.render.allocate.map(|Allocate::RelativeError| Stop::Budget);
     Settings {
         samples: u64::from(spec.render.samples),
-        stop: spec.render.stop.map(stop),
+        stop: spec.render.stop.map(target).or(budget),
         max_depth: spec.render.max_depth,
         wavelength_nm: spec.render.wavelength_nm.map(|nm| nm as f32),
     }
@@ -107,6 +109,9 @@ pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<F
         .with_sky(sky);
     if let Some(groups) = light_groups(&spec.lighting) {
         scene = scene.with_light_groups(groups);
+    }
+    if spec.render.approximation == Some(Approximation::Similarity) {
+        scene = scene.with_similar_fog();
     }
     Ok((scene, fog))
 }

@@ -14,6 +14,7 @@ use fog_plan::{FrameSpec, Plan};
 use fog_scene::scene::Scene;
 use fog_tracer::path::PathTracer;
 use fog_tracer::replay::Replay;
+use fog_tracer::settings::MOST_OF_BUDGET;
 
 /// A path with the frame that it belongs to; displays as a story, a step per paragraph.
 #[derive(Clone, Debug)]
@@ -50,8 +51,10 @@ pub fn replay(
         let range = format!("columns go from 0 to {}, rows from 0 to {}", width - 1, height - 1);
         return Err(Error::UnknownPath(format!("the frame has no pixel {x},{y}: {range}")));
     }
+    let most = if spec.render.allocate.is_some() { MOST_OF_BUDGET } else { 1 };
     let count = spec.render.stop.map_or(spec.render.samples, |stop| stop.max_samples);
-    if number >= u64::from(count) {
+    let count = u64::from(count) * most;
+    if number >= count {
         let range = format!("its pixels have {count} at most, counted from 0");
         return Err(Error::UnknownPath(format!("the frame has no sample {number}: {range}")));
     }

@@ -138,7 +138,7 @@ fn a_raw_picture_without_noise_is_arithmetic() {
     assert_eq!(taken["noise"]["sensor_rms_e"], 0.0);
     // Listed where files are listed.
     let index = std::fs::read_to_string(out.join("index.csv")).expect("index");
-    assert!(index.lines().next().expect("a head").ends_with("record_file,raw_file"), "{index}");
+    assert!(index.lines().next().expect("a head").ends_with("objects_file,raw_file"), "{index}");
     assert!(index.contains(&format!("{}.raw.png", ids[1])), "{index}");
     let marker = std::fs::read_to_string(out.join(format!("{}.done", ids[0]))).expect("marker");
     assert!(marker.contains(&format!("{}.raw.png", ids[0])));
@@ -264,7 +264,7 @@ fn clear_air_beside_fog() {
     assert_eq!(record["pair"]["files"][0], format!("{}.clear.exr", ids[1]));
     let index = std::fs::read_to_string(out.join("index.csv")).expect("index");
     assert!(
-        index.lines().next().expect("a head").ends_with("record_file,clear_file,clear_image_file"),
+        index.lines().next().expect("a head").ends_with("objects_file,clear_file,clear_image_file"),
         "{index}"
     );
 }

@@ -106,6 +106,12 @@ pub(crate) struct RenderFile {
     #[schemars(range(min = ranges::SAMPLES.min, max = ranges::SAMPLES.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) max_samples: Option<i64>,
+    /// Which pixels the frame's `samples` times its pixels go to. Absent: `even`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) allocate: Option<AllocateFile>,
+    /// Takes the fog for a simpler one along paths that have scattered often. Absent: the fog as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) approximation: Option<ApproximationFile>,
     /// Longest path in edges from camera to light; 1: only light that comes straight from its source. Absent: no limit.
     #[schemars(range(min = ranges::MAX_DEPTH.min, max = ranges::MAX_DEPTH.max))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,6 +123,29 @@ pub(crate) struct RenderFile {
     /// Traces frames together that are alike but for this. Absent: each frame alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) share: Option<ShareFile>,
+}
+
+/// What a rendering may do that is not exact.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Approximation")]
+pub(crate) enum ApproximationFile {
+    /// After 8 scatterings, six of ten further ones are taken for none, and the others turn the more, so that light spreads
+    /// alike: faster in deep fog. docs/performance.md says how much, and how far off. Not in patchy fog, and not with single
+    /// droplets.
+    Similarity,
+}
+
+/// How samples are shared out over the pixels.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Allocate")]
+pub(crate) enum AllocateFile {
+    /// Alike.
+    Even,
+    /// By the relative error that each pixel is left with, as told by its neighbours from a quarter of the samples: the least
+    /// relative squared error of the picture in the same number of paths. Dark and noisy parts gain, even ones lose.
+    RelativeError,
 }
 
 /// What frames that share paths may differ in.
@@ -137,6 +166,8 @@ impl Default for RenderFile {
             samples: 64,
             noise: None,
             max_samples: None,
+            allocate: None,
+            approximation: None,
             max_depth: None,
             wavelength_nm: None,
             share: None,

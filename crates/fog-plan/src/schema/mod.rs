@@ -24,7 +24,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub(crate) use camera::{CameraFile, OutputFile, RenderFile, SensorFile, ShareFile};
+pub(crate) use camera::{
+    AllocateFile, ApproximationFile, CameraFile, OutputFile, RenderFile, SensorFile, ShareFile,
+};
 pub(crate) use droplets::{DropletsFile, GammaFile, LognormalFile, ModifiedGammaFile, VerticalFile};
 pub(crate) use exposure::{ExposureFile, ExposureMap, LENS_TRANSMISSION, PERCENTILE, TARGET};
 pub(crate) use fog::{CoefficientFile, FogFile, FogModelName, SamplingFile, VisibilityFile};

@@ -2,10 +2,12 @@
 
 use super::{Check, lens::Geometry};
 use crate::{
-    frame::{Output, RenderSpec, SensorSpec, StopSpec},
+    frame::{Allocate, Approximation, Output, RenderSpec, SensorSpec, StopSpec},
     lens::ShutterSpec,
     ranges,
-    schema::{OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile},
+    schema::{
+        AllocateFile, ApproximationFile, OutputFile, Outputs, RenderFile, SensorFile, ShareFile, ShutterFile,
+    },
     share::Share,
 };
 
@@ -48,17 +50,42 @@ impl Check<'_> {
         };
         let wavelength = self.optional("render.wavelength_nm", render.wavelength_nm, ranges::WAVELENGTH_NM);
         let stop = self.stop(render, samples);
+        let allocate = self.allocate(render);
         let share = render.share.map(|share| match share {
             ShareFile::Lights => Share::Lights,
             ShareFile::Fog => Share::Fog,
         });
+        let approximation =
+            render.approximation.map(|ApproximationFile::Similarity| Approximation::Similarity);
+        if approximation.is_some() && share == Some(Share::Fog) {
+            self.problem(
+                "render.approximation",
+                "paths that several fogs share (render.share: fog) know none",
+            );
+            return None;
+        }
         Some(RenderSpec {
+            approximation,
             samples: samples?,
             stop: stop?,
+            allocate: allocate?,
             max_depth: depth?,
             wavelength_nm: wavelength?,
             share,
         })
+    }
+
+    /// How samples are shared out; the outer option is the check's success.
+    fn allocate(&mut self, render: &RenderFile) -> Option<Option<Allocate>> {
+        if render.allocate != Some(AllocateFile::RelativeError) {
+            return Some(None);
+        }
+        if render.noise.is_some() {
+            let message = "render.noise already says which pixels get more samples: leave one of the two out";
+            self.problem("render.allocate", message);
+            return None;
+        }
+        Some(Some(Allocate::RelativeError))
     }
 
     /// Until when pixels are sampled; the outer option is the check's success.

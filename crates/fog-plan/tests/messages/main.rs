@@ -515,6 +515,27 @@ fn sampling_by_noise() {
         ["configs/x.yaml:6:36: render.max_samples: 32 is less than render.samples, which is 64"]
     );
     assert_eq!(
+        of("render: {noise: 0.02, allocate: relative_error}\n"),
+        ["configs/x.yaml:6:33: render.allocate: render.noise already says which pixels get more samples: \
+          leave one of the two out"]
+    );
+    assert_eq!(
+        of("render: {approximation: similarity, share: fog}\n"),
+        [
+            "configs/x.yaml:6:25: render.approximation: paths that several fogs share (render.share: fog) know none"
+        ]
+    );
+    assert_eq!(
+        of("render: {approximation: delta}\n"),
+        ["configs/x.yaml:6:25: render.approximation: unknown value \"delta\"; expected similarity"]
+    );
+    assert_eq!(
+        of("render: {allocate: noise}\n"),
+        [
+            "configs/x.yaml:6:20: render.allocate: unknown value \"noise\"; expected one of even, relative_error"
+        ]
+    );
+    assert_eq!(
         of("render: {noise: 2, max_samples: 0}\n"),
         [
             "configs/x.yaml:6:17: render.noise: 2 is out of range; valid: above 0 up to 1",

@@ -25,7 +25,8 @@ impl PathTracer<'_> {
             return Spectrum::ZERO;
         };
         let value = lobe.value(light.direction);
-        let transmittance = self.transmittance(path.origin, light.direction, light.distance, lanes);
+        let ahead = path.depth + 1;
+        let transmittance = self.transmittance(path.origin, light.direction, light.distance, ahead, lanes);
         let mut density = path.r_u * light.density(value.density * transmittance);
         if let (Some(flight), Some(lamp), Some(angles)) = (flight, light.lamp(), &self.phase_angles) {
             let lamps = self.scene.lamps();
@@ -58,7 +59,8 @@ impl PathTracer<'_> {
             return Spectrum::ZERO;
         }
         let origin = s.point.spawn_origin(light.direction);
-        let transmittance = self.transmittance(origin, light.direction, light.distance, lanes);
+        let ahead = path.depth + 1;
+        let transmittance = self.transmittance(origin, light.direction, light.distance, ahead, lanes);
         let density = light.density(transmittance * pdf);
         let sum = path.beta * value * transmittance * light.radiance * (1.0 / (path.r_u * density).mean());
         let offer = Offer { light: &light, value, transmittance, worth: sum, glow: false };
@@ -109,16 +111,17 @@ impl PathTracer<'_> {
         (keep, Visibility::Free)
     }
 
-    /// Transmittance of the fog along a ray at all lanes.
+    /// Transmittance of the fog along a ray after so many scatterings, at all lanes.
     #[inline(always)]
     pub(super) fn transmittance(
         &self,
         origin: Vec3A,
         direction: Vec3A,
         distance: f32,
+        depth: u32,
         lanes: &Lanes,
     ) -> Spectrum {
-        let Some((medium, lanes)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
+        let Some((medium, lanes)) = self.fog(depth, lanes) else {
             return Spectrum::ONE;
         };
         if let Some(patchy) = &medium.patchy {

@@ -39,7 +39,7 @@ impl PathTracer<'_> {
 
     /// Density per metre of the hero's flight to where the path is now, having crossed `tau`.
     pub(super) fn flight_density(&self, path: &Path, lanes: &Lanes, tau: f64) -> f32 {
-        let (medium, lanes) = self.medium.as_ref().zip(lanes.medium.as_ref()).expect("collision needs fog");
+        let (medium, lanes) = self.fog(path.depth, lanes).expect("collision needs fog");
         let (y, density) = self.even_place(path);
         medium.profile.sigma_t(y, &lanes.profile)[0] * density * math::fast_exp(-(tau as f32))
     }
@@ -54,8 +54,7 @@ impl PathTracer<'_> {
         rng: &mut PathRng,
         watch: &mut impl Watch,
     ) -> Spectrum {
-        let (medium, medium_lanes) =
-            self.medium.as_ref().zip(lanes.medium.as_ref()).expect("a lit segment needs fog");
+        let (medium, medium_lanes) = self.fog(path.depth, lanes).expect("a lit segment needs fog");
         let lamps = self.scene.lamps();
         let angles = self.phase_angles.as_ref().expect("a lit segment needs lamps");
         let Some((lamp, chosen)) = lamps.choose(&segment.receiver(angles), rng.uniform_f64()) else {
@@ -74,7 +73,7 @@ impl PathTracer<'_> {
         let flight = depth.exp_neg() * profile.sigma_t(even_y, &medium_lanes.profile) * density as f32;
         let m = 0.5 * (light.direction - path.direction).length_squared();
         let phase = medium.phase.eval(scatterer.row, m, &scatterer.lanes);
-        let transmittance = self.transmittance(point, light.direction, light.distance, lanes);
+        let transmittance = self.transmittance(point, light.direction, light.distance, path.depth + 1, lanes);
         let value = path.beta
             * flight
             * profile.albedo(even_y, &medium_lanes.profile)

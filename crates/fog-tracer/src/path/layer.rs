@@ -1,6 +1,6 @@
 //! The layer's own light along a path: how the scene differs from it, and where a path is likely to find that out.
 
-use super::{Lanes, Path, PathRadiance, PathTracer, ROULETTE_MIN, ROULETTE_MIN_KNOWN};
+use super::{Lanes, Path, PathRadiance, PathTracer, ROULETTE_DEPTH, ROULETTE_MIN, ROULETTE_MIN_KNOWN};
 use crate::layer_light::LayerLanes;
 use crate::watch::{Step, Watch};
 use fog_core::random::PathRng;
@@ -41,7 +41,7 @@ impl PathTracer<'_> {
     /// what the fog absorbed of it.
     #[inline]
     pub(super) fn layer_at_collision(&self, path: &Path, lanes: &Lanes, rng: &mut PathRng) -> Spectrum {
-        let Some((medium, in_medium)) = self.medium.as_ref().zip(lanes.medium.as_ref()) else {
+        let Some((medium, in_medium)) = self.fog(path.depth - 1, lanes) else {
             return Spectrum::ZERO;
         };
         if lanes.layer.is_none() {
@@ -79,7 +79,7 @@ impl PathTracer<'_> {
     /// Throughput below which roulette is played where the path is now, and the least probability of survival.
     #[inline(always)]
     pub(super) fn roulette(&self, path: &Path) -> [f32; 2] {
-        let layer = self.layer_light.as_ref();
+        let layer = self.layer_light.as_ref().filter(|_| path.depth > ROULETTE_DEPTH);
         match layer.and_then(|layer| layer.worth(f64::from(path.origin.y), path.direction.y)) {
             Some(worth) => [self.roulette_below / worth, ROULETTE_MIN_KNOWN],
             None => [self.roulette_below, ROULETTE_MIN],

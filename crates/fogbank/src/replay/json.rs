@@ -90,6 +90,7 @@ impl Replayed {
                 "depth": depth,
                 "weights": weights_json(weights),
             }),
+            Step::Branch { branch, of } => json!({ "step": "branch", "branch": branch, "of": of }),
             Step::Escape { added } => json!({ "step": "escape", "added": added.0 }),
             Step::Layer { added } => json!({ "step": "layer_light", "added": added.0 }),
             Step::Absorbed => json!({ "step": "absorbed" }),

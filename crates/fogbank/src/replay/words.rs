@@ -110,6 +110,9 @@ impl Replayed {
                 writeln!(f, "scattering {depth} turns the path by {angle:.3}° to {}", along(*direction))?;
                 throughput(f, weights)
             }
+            Step::Branch { branch, of } => {
+                writeln!(f, "back to the first droplet, from where {of} paths go on: number {}", branch + 1)
+            }
             Step::Layer { added } => {
                 writeln!(
                     f,
