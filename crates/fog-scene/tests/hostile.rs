@@ -446,7 +446,7 @@ fn disturb(root: &mut Value, rng: &mut PathRng) {
             Value::Array(items) => items.len(),
             _ => 0,
         } as u64;
-        if count == 0 || rng.next_u64() % 40 == 0 {
+        if count == 0 || rng.next_u64().is_multiple_of(40) {
             *here = strange[(rng.next_u64() % strange.len() as u64) as usize].clone();
             return;
         }
