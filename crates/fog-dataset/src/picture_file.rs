@@ -17,8 +17,8 @@ use crate::{Error, Result, atomic, encode};
 
 /// First bytes of an OpenEXR file.
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
-/// Most pixels of an OpenEXR file that is read.
-const MAX_EXR_PIXELS: u64 = 1 << 27;
+/// Most pixels of a picture that is read.
+const MAX_PIXELS: u64 = 1 << 27;
 /// Largest difference of a chromaticity coordinate that still counts as rounding.
 const CHROMATICITY_ROUNDING: f32 = 1e-3;
 
@@ -64,6 +64,10 @@ fn not_a_picture(path: &Path, reason: String) -> Error {
     Error::NotAPicture { path: path.to_path_buf(), reason }
 }
 
+fn too_large(path: &Path, width: usize, height: usize) -> Error {
+    not_a_picture(path, format!("it has {width} × {height} px; up to {MAX_PIXELS} px in all are read"))
+}
+
 fn from_srgb(path: &Path, format: ImageFormat) -> Result<Picture> {
     let (width, height, mut rgb) = decode(path, format)?;
     for pixel in &mut rgb {
@@ -78,23 +82,27 @@ fn from_rgbe(path: &Path) -> Result<Picture> {
 }
 
 fn decode(path: &Path, format: ImageFormat) -> Result<(u32, u32, Vec<Rgb>)> {
-    let mut reader = ImageReader::open(path).map_err(Error::io("read", path))?;
-    reader.set_format(format);
-    let decoded = reader.decode().map_err(Error::picture("decode", path))?.into_rgb32f();
+    let open = || -> Result<_> {
+        let mut reader = ImageReader::open(path).map_err(Error::io("read", path))?;
+        reader.set_format(format);
+        Ok(reader)
+    };
+    let (width, height) = open()?.into_dimensions().map_err(Error::picture("decode", path))?;
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(too_large(path, width as usize, height as usize));
+    }
+    let decoded = open()?.decode().map_err(Error::picture("decode", path))?.into_rgb32f();
     let (width, height) = decoded.dimensions();
     Ok((width, height, decoded.pixels().map(|pixel| pixel.0).collect()))
 }
 
-/// Refuses files whose header promises more than [`MAX_EXR_PIXELS`], before room is made for them.
+/// Refuses an OpenEXR file whose header promises more than [`MAX_PIXELS`], before room is made for them.
 fn check_exr_size(path: &Path) -> Result<()> {
     let file = fs::File::open(path).map_err(Error::io("read", path))?;
     let header = MetaData::read_from_unbuffered(file, false).map_err(Error::picture("decode", path))?;
     let pixels = |size: Vec2<usize>| (size.0 as u64).saturating_mul(size.1 as u64);
-    match header.headers.iter().map(|h| h.layer_size).find(|size| pixels(*size) > MAX_EXR_PIXELS) {
-        Some(Vec2(width, height)) => {
-            let reason = format!("it has {width} × {height} px; up to {MAX_EXR_PIXELS} px in all are read");
-            Err(not_a_picture(path, reason))
-        }
+    match header.headers.iter().map(|h| h.layer_size).find(|size| pixels(*size) > MAX_PIXELS) {
+        Some(Vec2(width, height)) => Err(too_large(path, width, height)),
         None => Ok(()),
     }
 }

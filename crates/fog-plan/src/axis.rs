@@ -13,8 +13,8 @@ use crate::{
 use serde::Deserialize;
 
 /// Sections of a frame: what an axis can change.
-const SECTIONS: [&str; 9] =
-    ["scene", "fog", "camera", "path", "cameras", "sensor", "lighting", "render", "outputs"];
+const SECTIONS: [&str; 10] =
+    ["scene", "fog", "camera", "path", "cameras", "sensor", "lighting", "render", "outputs", "runway"];
 
 /// Floating-point steps may miss the last value by rounding: this share of a step still counts.
 const STEP_SLACK: f64 = 1e-9;

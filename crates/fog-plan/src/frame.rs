@@ -13,6 +13,7 @@ use crate::{
     patchiness::PatchinessSpec,
     path::PathSpec,
     rig::RigSpec,
+    runway::RunwaySpec,
     scene::SceneSpec,
     sensor::{ExposureSpec, SensorModelSpec},
     share::Share,
@@ -63,6 +64,9 @@ pub struct FrameSpec {
     pub labels: LabelsSpec,
     /// What is written, in the order of [`Output`], each once.
     pub outputs: Vec<Output>,
+    /// What the configuration says about the runway of the record; left out where it says nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runway: Option<RunwaySpec>,
 }
 
 fn as_map<S: Serializer>(axes: &[(String, serde_json::Value)], serializer: S) -> Result<S::Ok, S::Error> {

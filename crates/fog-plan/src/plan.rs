@@ -191,6 +191,7 @@ impl Plan {
             render,
             labels,
             outputs,
+            runway,
         } = content;
         Ok(FrameSpec {
             id: identity.id(&words),
@@ -210,6 +211,7 @@ impl Plan {
             render,
             labels,
             outputs,
+            runway,
         })
     }
 
@@ -296,9 +298,9 @@ impl Plan {
 impl Node {
     /// Top-level keys in the order of the schema.
     pub(crate) fn sort_sections(&mut self) {
-        const ORDER: [&str; 15] = [
+        const ORDER: [&str; 16] = [
             "version", "name", "seed", "scene", "fog", "camera", "path", "cameras", "sensor", "lighting",
-            "render", "classes", "labels", "outputs", "sweep",
+            "render", "classes", "labels", "outputs", "runway", "sweep",
         ];
         if let Value::Map(entries) = &mut self.value {
             entries.sort_by_key(|entry| ORDER.iter().position(|key| *key == entry.key));

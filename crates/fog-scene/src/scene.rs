@@ -230,6 +230,13 @@ impl Scene {
         &self.lamps
     }
 
+    /// Factor of its group on the light of a lamp of the scene file, by its index there; 1 where there are no groups.
+    #[must_use]
+    pub fn lamp_factor(&self, lamp: usize) -> f32 {
+        let group = self.grouping.as_ref().and_then(|g| Some((g, *g.lamps.get(lamp)?)));
+        group.map_or(1.0, |(grouping, group)| grouping.groups.intensity(group))
+    }
+
     /// Directional lights of the scene file that shine, relative; none when they are switched off.
     #[must_use]
     pub fn beams(&self) -> &[Beam] {

@@ -346,3 +346,142 @@ fn uris_stay_in_the_folder() {
     }
     assert!(attempt("parts/\u{1b}[2J").unwrap_err().contains("\\u{1b}"), "control characters are escaped");
 }
+
+#[test]
+fn images_that_are_none() {
+    let skin = |bytes: &[u8]| {
+        let (mut root, mut bin) =
+            textured(&[[0; 4]], json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+        let view = common::append(&mut root, &mut bin, bytes);
+        root["images"][0]["bufferView"] = view.into();
+        refusal(&root, &bin)
+    };
+    // The header of a PNG: so many columns and rows, and nothing else.
+    let header = |width: u32, height: u32| {
+        let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
+        png.extend([width.to_be_bytes(), height.to_be_bytes()].concat());
+        png.extend([8, 6, 0, 0, 0]);
+        let crc = png[12..].iter().fold(u32::MAX, |crc, byte| {
+            (0..8).fold(crc ^ u32::from(*byte), |c, _| (c >> 1) ^ (0xedb8_8320 & (c & 1).wrapping_neg()))
+        });
+        png.extend((!crc).to_be_bytes());
+        png.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
+        png
+    };
+    for bytes in [header(0, 0), header(0, 5), vec![], b"\x89PNG".to_vec()] {
+        let message = skin(&bytes);
+        assert!(message.contains("image `skin`"), "{message}");
+    }
+    let huge = skin(&header(100_000, 100_000));
+    assert!(
+        huge.ends_with("image `skin`: the scene's textures have more than 268435456 pixels together"),
+        "{huge}"
+    );
+    assert!(skin(b"RIFF....WEBPVP8 ").contains("is a WebP image; only PNG and JPEG are supported"));
+
+    let (mut root, bin) =
+        textured(&[[0; 4]], json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+    for (uri, reason) in [
+        ("absent.png", "cannot be read"),
+        ("http://example.org/a.png", "has a scheme"),
+        ("../a.png", "leaves the scene's folder"),
+    ] {
+        root["images"] = json!([{"name": "skin", "uri": uri}]);
+        let message = refusal(&root, &bin);
+        assert!(message.contains("image `skin`") && message.contains(reason), "{message}");
+    }
+}
+
+#[test]
+fn scenes_in_memory_have_no_folder() {
+    let (mut root, bin) = document(&TRIANGLE, 4);
+    let name = std::path::Path::new("made");
+    let load = |root: &Value, limits: Limits| fog_scene::load_bytes(name, &glb(root, &bin), &limits);
+    assert_eq!(load(&root, Limits::default()).unwrap().geometry.triangles().len(), 1);
+    let limits = Limits { max_nodes: 2, ..Limits::default() };
+    root["nodes"] = json!([{"mesh": 0}, {}, {}]);
+    assert_eq!(
+        load(&root, limits).unwrap_err().to_string(),
+        "made: the scene has 3 nodes; at most 2 are read"
+    );
+    root["buffers"][0]["uri"] = "a.bin".into();
+    let message = load(&root, Limits::default()).unwrap_err().to_string();
+    assert!(
+        message.contains("made: buffer 0: URI \"a.bin\" is beside the scene, which is in memory"),
+        "{message}"
+    );
+}
+
+#[test]
+fn missing_normals_are_those_of_the_triangles_and_bad_indices_are_named() {
+    let (mut root, mut bin) = document(&TRIANGLE, 4);
+    let triangle = load_bytes("flat.glb", &glb(&root, &bin)).unwrap().geometry.triangles()[0];
+    assert_eq!(triangle.normals.map(|n| n.to_array()), [[0.0, 0.0, 1.0]; 3]);
+    let view = common::append(&mut root, &mut bin, &[0, 1, 9]);
+    let accessors = root["accessors"].as_array_mut().unwrap();
+    accessors.push(json!({"bufferView": view, "componentType": 5121, "count": 3, "type": "SCALAR"}));
+    root["meshes"][0]["primitives"][0]["indices"] = 1.into();
+    let message = refusal(&root, &bin);
+    assert!(message.contains("mesh `thing`") && message.contains('9'), "{message}");
+}
+
+/// Replaces one value of a JSON text, chosen by chance, with one that nobody expects there.
+fn disturb(root: &mut Value, rng: &mut PathRng) {
+    let strange = [
+        Value::Null,
+        json!(-1),
+        json!(1e300),
+        json!(u64::MAX),
+        json!(""),
+        json!([]),
+        json!({}),
+        json!(4_294_967_295_u32),
+        json!("data:,"),
+        json!([1e38, -1e38, 0]),
+    ];
+    let mut here = root;
+    loop {
+        let count = match &*here {
+            Value::Object(map) => map.len(),
+            Value::Array(items) => items.len(),
+            _ => 0,
+        } as u64;
+        if count == 0 || rng.next_u64().is_multiple_of(40) {
+            *here = strange[(rng.next_u64() % strange.len() as u64) as usize].clone();
+            return;
+        }
+        let at = (rng.next_u64() % count) as usize;
+        here = match here {
+            Value::Object(map) => map.values_mut().nth(at).unwrap(),
+            Value::Array(items) => &mut items[at],
+            _ => return,
+        };
+    }
+}
+
+#[test]
+fn strange_values_never_panic() {
+    let bytes = rich();
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let root: Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+    let bin = &bytes[28 + length..];
+    // Many more by hand: ROUNDS=1000000.
+    let rounds = std::env::var("ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
+    let mut loaded = 0;
+    for round in 0..rounds {
+        let mut rng = PathRng::new(11, round, 0);
+        let mut strange = root.clone();
+        for _ in 0..1 + rng.next_u64() % 2 {
+            disturb(&mut strange, &mut rng);
+        }
+        let limits = Limits { max_texture_pixels: 1 << 20, max_triangles: 100_000, ..Limits::default() };
+        match fog_scene::load_bytes("strange.glb".as_ref(), &glb(&strange, bin), &limits) {
+            Ok(scene) => {
+                loaded += 1;
+                look_at(scene);
+            }
+            Err(error) => assert!(error.to_string().starts_with("strange.glb: "), "{error}"),
+        }
+    }
+    assert!(loaded > rounds / 100, "{loaded}");
+}

@@ -1,5 +1,6 @@
 //! One frame: specification → scene → picture and record.
 
+use crate::aviation;
 use crate::clear_air;
 use crate::denoise;
 use crate::error::Error;
@@ -99,6 +100,7 @@ pub(crate) fn settings(spec: &FrameSpec) -> Settings {
 /// If the scene, the fog or the lights cannot be had.
 pub fn scene(spec: &FrameSpec, resources: &Resources) -> Result<(Scene, Option<Fog>), Error> {
     let loaded = resources.scene(spec.scene.as_ref())?;
+    aviation::check(spec, &loaded)?;
     let fog = Fog::new(&spec.fog, resources)?;
     let DistantLights { environment, sky, sun } = distant_lights(&spec.lighting, resources)?;
     let medium = fog.as_ref().map(|f| f.medium.clone());
@@ -153,6 +155,9 @@ pub(crate) fn finish(
     let mut record = record(spec, fog, scene, &camera, &frame, config_digest);
     let exposure = exposure::factor(spec, &frame);
     exposure::write(spec, exposure, &mut record);
+    if let Some(aviation) = aviation::of_frame(spec, (scene, fog), &camera, &frame)? {
+        record["aviation"] = serde_json::json!(aviation);
+    }
     if let Some(hash) = spec.scene.as_ref().and_then(|scene| resources.scene_hash(scene)) {
         record["scene"]["blake3"] = hash.into();
     }

@@ -17,6 +17,7 @@
 //! # Ok::<(), fogbank::Error>(())
 //! ```
 
+pub mod aviation;
 mod camera_record;
 mod changed_files;
 mod clear_air;

@@ -133,13 +133,13 @@ fn verify_without_a_readable_plan_is_a_mistake() {
 
 #[test]
 fn shipped_configurations_are_valid() {
-    for (config, frames) in [("quickstart", 12), ("approach", 12)] {
+    for (config, frames) in [("quickstart", 12), ("approach", 78), ("robustness", 24), ("dehazing", 96)] {
         let plan = run(&["plan", &format!("configs/{config}.yaml"), "--json"], &repository("")).ok().stdout;
         let plan: Vec<_> = plan.lines().map(json).collect();
         assert!(plan.len() >= frames, "{config}: {}", plan.len());
         for frame in plan {
-            let scene = frame["scene"]["file"].as_str().unwrap();
-            assert!(repository(scene).is_file(), "{scene}");
+            let scene = frame["scene"]["file"].as_str();
+            assert!(scene.is_none_or(|scene| repository(scene).is_file()), "{scene:?}");
         }
     }
 }

@@ -6,6 +6,7 @@ mod chaos;
 mod commands;
 mod common;
 mod compare;
+mod configs;
 mod data_set;
 mod denoise;
 mod determinism;

@@ -115,3 +115,49 @@ fn other_primaries_are_refused() {
     fs::write(dir.path().join("aces.exr"), bytes).expect("written");
     assert!(refused(&dir.path().join("aces.exr")).contains("primaries are not those of sRGB"));
 }
+
+#[test]
+fn damaged_pictures_are_errors_and_never_panics() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let set = open(dir.path(), 1);
+    store(&set, "f0", &frame(9, 5, Channels::Rgb, 4)).expect("written");
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81".to_vec();
+    let read = |name: &str| fs::read(dir.path().join(name)).expect("read");
+    let path = dir.path().join("bad");
+    let mut random = fog_core::random::PathRng::new(5, 0, 0);
+    let mut refused = 0;
+    for whole in [read("f0.hdr.exr"), read("f0.rgb.png"), hdr] {
+        for _ in 0..400 {
+            let mut bytes = whole.clone();
+            for _ in 0..1 + random.next_u64() % 3 {
+                let at = (random.next_u64() % bytes.len() as u64) as usize;
+                match random.next_u64() % 4 {
+                    0 => bytes[at] ^= 1 << (random.next_u64() % 8),
+                    1 => bytes[at] = 0xff,
+                    2 => bytes.truncate(at.max(1)),
+                    _ => bytes[at] = random.next_u64() as u8,
+                }
+            }
+            fs::write(&path, &bytes).expect("write");
+            refused += u32::from(read_picture(&path).is_err());
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}
+
+#[test]
+fn pictures_that_promise_too_much_are_refused_before_room_is_made() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    let path = dir.path().join("huge.hdr");
+    fs::write(&path, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n").expect("write");
+    assert!(refused(&path).contains("60000 × 60000 px; up to 134217728 px"), "{}", refused(&path));
+    // A PNG of no size is none.
+    let mut png = Vec::new();
+    png.extend(13_u32.to_be_bytes());
+    png.extend(b"IHDR");
+    png.extend([0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0]);
+    png.extend([0; 4]);
+    let path = dir.path().join("empty.png");
+    fs::write(&path, [&b"\x89PNG\r\n\x1a\n"[..], &png].concat()).expect("write");
+    assert!(read_picture(&path).is_err());
+}

@@ -13,6 +13,7 @@ mod or_none;
 mod patchiness;
 mod path;
 mod phase;
+mod runway;
 mod scene;
 mod sensor_model;
 mod sky;
@@ -41,6 +42,7 @@ pub(crate) use path::{
     RigCameraFile, ShutterFile,
 };
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
+pub(crate) use runway::RunwayFile;
 pub(crate) use scene::{ApproachFile, LimitsFile, SceneFile, StyleFile, WorldName};
 pub(crate) use sensor_model::{
     BayerFile, PsfFile, ResponseFile, SensorModelFile, SensorModelMap, SensorModelWord, SensorPreset,
@@ -98,6 +100,9 @@ pub(crate) struct ConfigFile {
     /// What is written for each frame.
     #[schemars(extend("uniqueItems" = true), length(min = 1))]
     pub(crate) outputs: Outputs,
+    /// The runway that the records are about. Absent: the scene's, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runway: Option<RunwayFile>,
     /// Axes whose values are multiplied out into frames.
     pub(crate) sweep: Option<SweepFile>,
 }

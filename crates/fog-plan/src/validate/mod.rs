@@ -11,6 +11,7 @@ mod lighting;
 mod patchiness;
 mod path;
 mod pose;
+mod runway;
 mod scene;
 mod sensor_model;
 mod sky;
@@ -35,6 +36,7 @@ use crate::{
     ranges::Range,
     read::read,
     rig::RigSpec,
+    runway::RunwaySpec,
     scene::SceneSpec,
     schema::ConfigFile,
     words::did_you_mean,
@@ -58,6 +60,8 @@ pub(crate) struct Content {
     #[serde(skip_serializing_if = "LabelsSpec::is_default")]
     pub(crate) labels: LabelsSpec,
     pub(crate) outputs: Vec<Output>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) runway: Option<RunwaySpec>,
 }
 
 /// Which of the frames of a combination of axis values.
@@ -127,6 +131,7 @@ impl Check<'_> {
         let view = self.view(file, place, fog.as_ref().map_or(0.0, |fog| fog.datum_m));
         let labels = self.labels(file.classes.as_ref(), file.labels.as_ref());
         let outputs = self.outputs(&file.outputs, file.path.is_some() || place.path.is_some());
+        let runway = self.runway(file.runway.as_ref());
         self.sensor_rules(file, sensor.as_ref());
         let View { camera, rig, path, readout_end } = view?;
         let mut scene = scene?;
@@ -145,6 +150,7 @@ impl Check<'_> {
             render: render?,
             labels: labels?,
             outputs: outputs?,
+            runway: runway?,
         })
     }
 

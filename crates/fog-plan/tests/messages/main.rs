@@ -3,6 +3,7 @@
 mod cameras;
 mod includes;
 mod lights;
+mod runways;
 mod scenes;
 mod sensor;
 
@@ -37,7 +38,7 @@ fn unknown_keys() {
         errors("fog: none\nweather: bad\n"),
         [
             "configs/x.yaml:7:1: weather: unknown key; expected one of include, version, name, seed, scene, fog, camera, path, \
-             cameras, sensor, lighting, render, classes, labels, outputs, sweep"
+             cameras, sensor, lighting, render, classes, labels, outputs, runway, sweep"
         ]
     );
 }
@@ -452,7 +453,7 @@ fn wrong_sweeps() {
         errors("fog: none\nsweep:\n  axes: {seed: [1, 2], camera.altitude_m: {from: 1, step: 2}}\n"),
         [
             "configs/x.yaml:8:10: sweep.axes.seed: an axis cannot change `seed`; expected one of scene, fog, camera, \
-             path, cameras, sensor, lighting, render, outputs",
+             path, cameras, sensor, lighting, render, outputs, runway",
             "configs/x.yaml:8:43: sweep.axes.camera.altitude_m.to: missing; this key is required",
         ]
     );

@@ -101,6 +101,8 @@ pub struct LoadedScene {
     pub lights: PunctualLights,
     /// Whose they are.
     pub light_names: LightNames,
+    /// `extras` of the scene; null if it has none.
+    pub extras: serde_json::Value,
     /// Time in seconds at which everything is where it is.
     pub time_s: f64,
     /// What moves; none where nothing does.
@@ -295,6 +297,7 @@ impl SceneFile {
             light_names,
             time_s,
             animation,
+            extras: nodes::scene_extras(document),
             warnings: warnings.0,
         })
     }

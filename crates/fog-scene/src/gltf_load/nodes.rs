@@ -45,6 +45,18 @@ struct Inherited {
     instance: Option<Rc<str>>,
 }
 
+/// The default scene, or the first.
+fn default_scene(document: &Document) -> Option<gltf::Scene<'_>> {
+    document.default_scene().or_else(|| document.scenes().next())
+}
+
+/// `extras` of that scene; null if it has none.
+pub(super) fn scene_extras(document: &Document) -> serde_json::Value {
+    let scene = default_scene(document);
+    let extras = scene.as_ref().and_then(|scene| scene.extras().as_ref());
+    extras.and_then(|extras| serde_json::from_str(extras.get()).ok()).unwrap_or_default()
+}
+
 /// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
 /// everything is where it is at the time.
 pub(super) fn flatten(
@@ -55,8 +67,7 @@ pub(super) fn flatten(
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
-    let scene = document.default_scene().or_else(|| document.scenes().next());
-    let scene = scene.ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
+    let scene = default_scene(document).ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
     let mut flat = Flat::default();
     let mut meshes: BTreeMap<usize, Rc<[Primitive]>> = BTreeMap::new();
     // Triangles are counted in 31 bits.
