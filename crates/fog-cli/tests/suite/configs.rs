@@ -51,11 +51,14 @@ fn an_approach_tells_what_is_in_sight() {
     let decided = &aviation["visual_range"]["decision_heights"];
     assert_eq!((&decided[0]["reached"], &decided[1]["reached"]), (&true.into(), &true.into()));
 
-    // Lights that are switched off are not seen.
+    // Lights that are switched off are not seen, and in clear air the markings are.
     let clear = record(dir.path(), "approach", 0, &["sweep=~", "fog=none", "lighting=day"]);
     let aviation = &clear["aviation"];
     assert_eq!(aviation["visual_range"]["rvr_reported"], "P2000");
-    assert_eq!(aviation["approach_lights_in_sight"], false);
+    assert_eq!(
+        (&aviation["runway_in_sight"], &aviation["approach_lights_in_sight"]),
+        (&true.into(), &false.into())
+    );
 }
 
 #[test]
