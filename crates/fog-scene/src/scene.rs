@@ -237,6 +237,13 @@ impl Scene {
         group.map_or(1.0, |(grouping, group)| grouping.groups.intensity(group))
     }
 
+    /// Whether nothing shines but emitting surfaces.
+    #[must_use]
+    pub fn emitters_alone(&self) -> bool {
+        let distant = self.environment.is_some() || self.sky.is_some() || self.sun.is_some();
+        !distant && self.beams().is_empty() && self.lamps().lights().is_empty()
+    }
+
     /// Directional lights of the scene file that shine, relative; none when they are switched off.
     #[must_use]
     pub fn beams(&self) -> &[Beam] {

@@ -40,8 +40,8 @@ use fog_scene::sky_map::SkyLanes;
 
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
-/// The same without an environment; until [`ROULETTE_DEPTH`] by the throughput alone, wherever the path is.
-const ROULETTE_DEPTH_DARK: u32 = 1;
+/// The same where broad emitters are all the light; until [`ROULETTE_DEPTH`] by the throughput alone, wherever the path is.
+const ROULETTE_DEPTH_BROAD: u32 = 1;
 /// Smallest probability of survival: bounds the weight of survivors.
 const ROULETTE_MIN: f32 = 0.5;
 /// The same where the layer tells what a path is worth.
@@ -166,14 +166,14 @@ impl<'a> PathTracer<'a> {
         let late = scene.late.as_ref().map(|late| (late.medium.view(), late.after));
         let reference_lanes = medium.as_ref().map(|m| m.profile.lanes(&all));
         let surrounded = scene.environment.is_some() || scene.sky.is_some();
-        let (roulette_below, roulette_depth) = if surrounded {
-            (ROULETTE_BELOW_SKY, ROULETTE_DEPTH)
-        } else {
-            (ROULETTE_BELOW, ROULETTE_DEPTH_DARK)
-        };
+        let roulette_below = if surrounded { ROULETTE_BELOW_SKY } else { ROULETTE_BELOW };
         let lights = LightMix::new(scene);
         let layer_light = medium.as_ref().and_then(|m| LayerLight::new(scene, m, observer));
-        let branches = if !surrounded && scene.emitters().has(Breadth::Broad) { BRANCHES } else { 1 };
+        let (roulette_depth, branches) = if scene.emitters_alone() && scene.emitters().has(Breadth::Broad) {
+            (ROULETTE_DEPTH_BROAD, BRANCHES)
+        } else {
+            (ROULETTE_DEPTH, 1)
+        };
         let among_lamps = medium.as_ref().filter(|_| lights.lamp_probability() > 0.0);
         let phase_angles = among_lamps.map(|m| PhaseAngles::new(&m.phase));
         Self {
