@@ -20,6 +20,7 @@ fn restless() -> tempfile::TempDir {
 }
 
 const SAMPLES: [&str; 2] = ["--set", "render.samples=40"];
+const QUICK: [&str; 2] = ["--set", "render.samples=4"];
 
 fn begin(dir: &Path, tables: &str, more: &[&str]) -> Child {
     let args = ["sweep", "c.yaml", "--out", "out", "--threads", "1", "--cache-dir", tables];
@@ -121,12 +122,14 @@ fn a_full_disk_and_a_folder_that_cannot_be_written() {
         eprintln!("skipped: a file system cannot be mounted here (no root)");
         return;
     }
-    let full = begin(dir.path(), &cache(), &["--workers", "2"]).wait_with_output().unwrap();
+    let full =
+        begin(dir.path(), &cache(), &[&QUICK[..], &["--workers", "2"]].concat()).wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&full.stderr).into_owned();
     let remounted = mount(&["-o", "remount,size=20m,ro"]);
-    let locked = begin(dir.path(), &cache(), &[]).wait_with_output().unwrap();
+    let locked = begin(dir.path(), &cache(), &QUICK).wait_with_output().unwrap();
     let writable = mount(&["-o", "remount,rw"]);
-    let rest = begin(dir.path(), &cache(), &["--retry-failed"]).wait_with_output().unwrap();
+    let rest =
+        begin(dir.path(), &cache(), &[&QUICK[..], &["--retry-failed"]].concat()).wait_with_output().unwrap();
     let copied = Command::new("cp").arg("-r").arg(&out).arg(dir.path().join("copy")).status();
     let unmounted = Command::new("umount").arg(&out).status().is_ok_and(|s| s.success());
     assert!(remounted && writable && unmounted && copied.is_ok_and(|s| s.success()));
@@ -136,6 +139,6 @@ fn a_full_disk_and_a_folder_that_cannot_be_written() {
     assert!(locked.status.code() == Some(2) && said.contains("Read-only file system"), "{said}");
     assert_eq!(rest.status.code(), Some(0), "{}", String::from_utf8_lossy(&rest.stderr));
     let whole = ["sweep", "c.yaml", "--out", "whole", "--cache-dir", &cache()];
-    run(&[&whole, &SAMPLES[..]].concat(), dir.path()).ok();
+    run(&[&whole, &QUICK[..]].concat(), dir.path()).ok();
     assert_same(&dir.path().join("whole"), &dir.path().join("copy"));
 }
