@@ -74,10 +74,10 @@ fn a_runway_must_have_a_place() {
 #[test]
 fn robustness_runs() {
     let dir = tempfile::tempdir().expect("temporary folder");
-    let frame = record(dir.path(), "robustness", 0, &["scene.length_m=80"]);
+    let frame = record(dir.path(), "robustness", 3, &["scene.length_m=80"]);
     assert_eq!(
         (&frame["lighting"]["preset"], &frame["fog"]["visibility"]["mor_m"]),
-        (&"overcast".into(), &50.0.into())
+        (&"overcast".into(), &75.0.into())
     );
     assert!(frame.get("aviation").is_none());
     let night = record(dir.path(), "robustness", 23, &["scene.length_m=80"]);
