@@ -9,6 +9,7 @@ use fog_tests::scenes;
 use fog_tracer::path::PathTracer;
 use fog_tracer::settings::Settings;
 use fog_tracer::watch::Step;
+use std::sync::Arc;
 
 /// What `docs/performance.md` says that a picture is off by at most.
 const MOST_OFF: f64 = 0.01;
@@ -36,6 +37,12 @@ fn similar_fog_spreads_light_alike() {
     }
     let profile = scenes::grey_profile(60.0, &[0.05, 0.05], 1.0);
     assert!(LateMedium::similar(&scenes::hg_fog(profile, 0.3)).is_none());
+    // Clear air is clear however often a path has scattered.
+    let fog = scenes::hg_fog(scenes::grey_profile(60.0, &[0.05, 0.05], 1.0), 0.83);
+    let scene = Scene::new(Arc::default(), Some(fog), None, None, false).with_similar_fog();
+    assert!(scene.late.is_some());
+    let clear = scene.without_fog();
+    assert!(clear.medium.is_none() && clear.late.is_none());
 }
 
 /// Moments of paths straight ahead and their mean number of collisions.

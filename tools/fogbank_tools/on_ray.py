@@ -83,6 +83,8 @@ def sweep(args: argparse.Namespace) -> int:
         elapsed = time.monotonic() - begun
         left = elapsed / ended * (parts - ended)
         print(f"{ended} of {parts} parts, {elapsed:.0f} s, about {left:.0f} s left", flush=True)
+    # Ray tells of nodes until then, on the same output.
+    ray.shutdown()
     for frame, reason in failures.items():
         print(f"{frame} FAILED: {reason}", file=sys.stderr)
     # The proof is the data set's own.

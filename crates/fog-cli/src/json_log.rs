@@ -100,7 +100,7 @@ impl Progress for JsonLog {
                 self.count(|s| s.frames += 1);
                 self.line("frame_done", json!({ "frame": id, "seconds": seconds, "noise": noise }));
             }
-            Event::FrameFailed { id, reason, paths: _ } => {
+            Event::FrameFailed { id, reason } => {
                 self.line("frame_failed", json!({ "frame": id, "reason": reason }));
             }
             Event::Finished { counts } => {

@@ -198,7 +198,7 @@ impl Progress for Reporter {
                 let n = self.next_frame();
                 self.say(&format!("{n:>7}  {id}  {seconds:.1} s, noise {:.1} %", 100.0 * noise));
             }
-            Event::FrameFailed { id, reason, paths: _ } => {
+            Event::FrameFailed { id, reason } => {
                 let n = self.next_frame();
                 self.bar.suspend(|| print::complaint(format_args!("{n:>7}  {id}  FAILED: {reason}")));
             }

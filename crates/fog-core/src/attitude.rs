@@ -75,14 +75,42 @@ impl Attitude {
     /// `share` times the angle. `share` may be any number; `self` equal to `from` with share 1 gives `to`.
     #[must_use]
     pub fn turned(&self, from: &Self, to: &Self, share: f64) -> Self {
-        let (axis, angle) = rotation(to.0 * from.0.transpose());
-        Self(rotate(axis, angle * share) * self.0)
+        Self(Turn::between(from, to).matrix(share) * self.0)
+    }
+
+    /// From its columns right, down and forward, which are unit vectors at right angles.
+    #[must_use]
+    pub fn from_columns(columns: [[f64; 3]; 3]) -> Self {
+        Self(DMat3::from_cols_array_2d(&columns))
     }
 
     /// Columns right, down and forward.
     #[must_use]
     pub fn columns(&self) -> [[f64; 3]; 3] {
         self.0.to_cols_array_2d()
+    }
+}
+
+/// A rotation about one axis, of which shares can be taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    axis: DVec3,
+    /// In radians, 0 to π.
+    angle: f64,
+}
+
+impl Turn {
+    /// The rotation that leads from one attitude to another.
+    #[must_use]
+    pub fn between(from: &Attitude, to: &Attitude) -> Self {
+        let (axis, angle) = rotation(to.0 * from.0.transpose());
+        Self { axis, angle }
+    }
+
+    /// The matrix, for vectors of the world, of the rotation about the same axis by `share` times the angle.
+    #[must_use]
+    pub fn matrix(&self, share: f64) -> DMat3 {
+        rotate(self.axis, self.angle * share)
     }
 }
 

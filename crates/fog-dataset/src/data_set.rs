@@ -1,6 +1,7 @@
 //! The folder of a data set while it is being filled.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +66,12 @@ pub struct Counts {
     pub missing: u64,
 }
 
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} done, {} failed, {} missing", self.done, self.failed, self.missing)
+    }
+}
+
 impl Counts {
     /// Counts a list of states.
     #[must_use]
@@ -96,8 +103,9 @@ impl DataSet {
     ///
     /// # Errors
     /// [`Error::ConfigDiffers`], [`Error::CodeDiffers`] or [`Error::PlanDiffers`] when the folder holds another data set,
-    /// [`Error::NotAnExtension`] when it cannot be extended, [`Error::NotADataSet`] when it holds something else, [`Error::Damaged`] when its `dataset.json` is unreadable,
-    /// [`Error::BadId`] for ids that cannot name files, [`Error::Io`] when the system refuses.
+    /// [`Error::NotAnExtension`] when it cannot be extended, [`Error::NotADataSet`] when it holds something else,
+    /// [`Error::Damaged`] when its `dataset.json` is unreadable, [`Error::BadId`] for ids that cannot name files,
+    /// [`Error::Io`] when the system refuses.
     pub fn create_or_open(
         dir: &Path,
         info: DataSetInfo<'_>,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::marker::{Check, Marker};
 use crate::names::{HEADER, Kind};
+use crate::verify::foreign;
 use crate::{Counts, DataSet, Error, FrameState, Header, PlanFrame, Problem, Result, atomic, read_header};
 
 /// What [`merge`] did.
@@ -97,10 +98,8 @@ fn take(
             return Ok(false);
         }
     };
-    let mut faults = marker.faults(part, frame.outputs, Check::Hash);
-    if !header.takes(&marker.config_digest) || marker.code_digest != header.code_digest {
-        faults.push((Kind::Done.file(&frame.id), "is of another configuration or program".to_owned()));
-    }
+    let mut faults = foreign(&marker, header);
+    faults.extend(marker.faults(part, frame.outputs, Check::Hash));
     if !faults.is_empty() {
         let named = |(file, reason): (String, String)| (part.join(file).display().to_string(), reason);
         problems.extend(faults.into_iter().map(named).map(|(file, reason)| problem(file, reason)));

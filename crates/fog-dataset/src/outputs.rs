@@ -123,12 +123,6 @@ impl OutputSet {
         self.depth || self.distance || fog || surface
     }
 
-    /// Whether the frame has classes or instances.
-    #[must_use]
-    pub fn wants_labels(self) -> bool {
-        self.semantic || self.instance || self.objects
-    }
-
     fn flag(&mut self, name: &str) -> Option<&mut bool> {
         Some(match name {
             "image" => &mut self.image,

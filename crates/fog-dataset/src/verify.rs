@@ -76,7 +76,7 @@ pub fn verify(dir: &Path) -> Result<Report> {
 }
 
 /// A marker of another configuration or program.
-fn foreign(marker: &Marker, header: &Header) -> Vec<(String, String)> {
+pub(crate) fn foreign(marker: &Marker, header: &Header) -> Vec<(String, String)> {
     let fault = |what, found: &str, expected: &str| {
         let reason = format!("is of {what} {found}, but the data set of {expected}");
         (Kind::Done.file(&marker.id), reason)

@@ -13,6 +13,7 @@ mod check;
 mod de;
 mod de_error;
 mod diff;
+mod draws;
 mod droplets;
 mod error;
 mod fill;

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use crate::{
     axis::{Axis, Values},
     de::NodeReader,
+    draws,
     error::{Problem, Problems},
     node::{Node, Value},
     ranges,
@@ -136,8 +137,7 @@ fn frames(mode: SweepMode, count: Option<i64>, axes: &[Axis]) -> Result<usize, (
 
 /// Independent uniform number in [0, 1) of frame and dimension.
 fn random(seed: u64, index: usize, dimension: usize) -> f64 {
-    let bits = mix64(mix64(mix64(seed ^ 0x7261_6e64_6f6d) ^ index as u64) ^ dimension as u64);
-    (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+    draws::uniform(seed ^ 0x7261_6e64_6f6d, index, dimension)
 }
 
 /// Owen-scrambled Sobol number in [0, 1): a new scramble after each 65 536 frames and each 256 dimensions.

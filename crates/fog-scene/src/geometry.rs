@@ -176,8 +176,9 @@ impl Geometry {
 
     /// True if the triangle stops the ray of `key`.
     fn stops(&self, triangle: u32, u: f32, v: f32, direction: Vec3A, key: u64) -> bool {
-        let number = (mix64(key ^ mix64(u64::from(triangle) + 1)) >> 40) as f32 * (1.0 / 16_777_216.0);
-        number < self.stop_probability(triangle, u, v, direction)
+        let probability = self.stop_probability(triangle, u, v, direction);
+        let number = || (mix64(key ^ mix64(u64::from(triangle) + 1)) >> 40) as f32 * (1.0 / 16_777_216.0);
+        probability >= 1.0 || number() < probability
     }
 
     /// Probability that the triangle stops a ray there.

@@ -113,6 +113,25 @@ impl Scene {
         self
     }
 
+    /// The same scene in clear air.
+    #[must_use]
+    pub fn without_fog(&self) -> Self {
+        Self { medium: None, late: None, ..self.clone() }
+    }
+
+    /// Optical depths along a ray (unit direction) up to `t_max` metres, at these wavelengths in nm; 0 without fog.
+    #[must_use]
+    pub fn optical_depths_at<const N: usize>(
+        &self,
+        origin: Vec3A,
+        direction: Vec3A,
+        t_max: f64,
+        wavelengths_nm: [f64; N],
+    ) -> [f64; N] {
+        let depths = |medium: &Medium| medium.optical_depths_at(origin, direction, t_max, wavelengths_nm);
+        self.medium.as_ref().map_or([0.0; N], depths)
+    }
+
     /// The same scene under this sky.
     #[must_use]
     pub fn with_sky(mut self, sky: Option<SkyMap>) -> Self {

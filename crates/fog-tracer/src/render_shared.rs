@@ -41,11 +41,7 @@ pub fn render_shared(
     progress: &(dyn Fn(Work) -> bool + Sync),
 ) -> Option<Vec<Result<Frame, FrameError>>> {
     // Paths that several fogs share go by those, not by the scene's.
-    let bare = (media.len() > 1).then(|| {
-        let mut scene = scene.clone();
-        scene.medium = None;
-        scene
-    });
+    let bare = (media.len() > 1).then(|| scene.without_fog());
     let base = PathTracer::new(bare.as_ref().unwrap_or(scene), observer, *settings);
     let names = group_names(scene);
     let pass = Pass {

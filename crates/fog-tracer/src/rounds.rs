@@ -77,7 +77,7 @@ fn relative_variance(luminance: &Moments, floor: f64) -> f64 {
 }
 
 /// Weighted means over the neighbourhood of each pixel; at the frame's border, over the part inside.
-pub(crate) fn smooth(values: &[f64], width: usize) -> Vec<f64> {
+fn smooth(values: &[f64], width: usize) -> Vec<f64> {
     let height = values.len() / width.max(1);
     let rows: Vec<f64> =
         (0..values.len()).map(|i| line(i % width, width, |x| values[i - i % width + x])).collect();

@@ -144,8 +144,7 @@ fn transmittances<const N: usize>(
     (origin, direction, distance): (Vec3A, Vec3A, f64),
     wavelengths_nm: [f64; N],
 ) -> [f64; N] {
-    let Some(medium) = &scene.medium else { return [1.0; N] };
-    medium.optical_depths_at(origin, direction, distance, wavelengths_nm).map(|tau| math::f64::exp(-tau))
+    scene.optical_depths_at(origin, direction, distance, wavelengths_nm).map(|tau| math::f64::exp(-tau))
 }
 
 /// Value of a colour's spectrum at one wavelength.

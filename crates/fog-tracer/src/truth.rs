@@ -27,8 +27,8 @@ struct Row {
 /// A pixel whose centre the lens does not show.
 const UNSEEN: Row = Row { depth: f32::NAN, distance: f32::NAN, transmittance: [f32::NAN; 3], tau: f32::NAN };
 
-/// Depth, distance, transmittance and optical depth of every pixel, NaN where the lens sees nothing; of a monochromatic frame the transmittance is that of
-/// its wavelength.
+/// Depth, distance, transmittance and optical depth of every pixel, NaN where the lens sees nothing; of a monochromatic frame
+/// the transmittance is that of its wavelength.
 #[must_use]
 pub fn truth(scene: &Scene, camera: &Camera, wavelength_nm: Option<f32>) -> Truth {
     let bands = wavelength_nm.map_or(TRANSMITTANCE_NM, |nm| [f64::from(nm); 3]);
@@ -52,9 +52,8 @@ fn pixel_truth(scene: &Scene, camera: &Camera, i: usize, bands: [f64; 3]) -> Row
     let hit = scene.intersect(ray.origin, ray.direction, f32::INFINITY);
     let distance = hit.map_or(f32::INFINITY, |h| h.t);
     let [r, g, b] = bands;
-    let depths = scene.medium.as_ref().map_or([0.0; 4], |medium| {
-        medium.optical_depths_at(ray.origin, ray.direction, f64::from(distance), [r, g, b, TAU_NM])
-    });
+    let wavelengths = [r, g, b, TAU_NM];
+    let depths = scene.optical_depths_at(ray.origin, ray.direction, f64::from(distance), wavelengths);
     Row {
         depth: camera.depth(x, y, distance),
         distance,

@@ -36,9 +36,8 @@ pub(crate) fn render_clear(
     if !is_rendered(spec) {
         return Ok(frame.clone());
     }
-    let mut scene = scene.clone();
-    scene.medium = None;
-    render(&scene, camera, observer, &settings(spec), spec.seed, progress)?.ok_or(Error::Cancelled)
+    render(&scene.without_fog(), camera, observer, &settings(spec), spec.seed, progress)?
+        .ok_or(Error::Cancelled)
 }
 
 /// Its files' content, at the exposure of the foggy frame; a sensor has random numbers of its own for it.

@@ -13,6 +13,7 @@ use crate::record::record;
 use crate::resources::Resources;
 use crate::sensor::{self, Chain};
 use fog_core::Vec3A;
+use fog_core::colour::Observer;
 use fog_dataset::{CameraPicture, ClearPicture, DenoisedPicture};
 use fog_film::Frame;
 use fog_plan::{Allocate, Approximation, CameraSpec, FrameSpec, Output, SensorSpec, StopSpec};
@@ -134,17 +135,18 @@ pub fn render_frame(
     let settings = settings(spec);
     let frame = fog_tracer::render::render(&scene, &camera, &observer, &settings, spec.seed, progress)?
         .ok_or(Error::Cancelled)?;
-    finish(spec, resources, (&scene, fog.as_ref()), frame, config_digest, progress)
+    finish(spec, resources, (&scene, fog.as_ref()), &observer, frame, config_digest, progress)
 }
 
 /// A frame with its record and, if asked for, the pictures of its sensor, its view in clear air and its denoised picture.
 ///
 /// # Errors
-/// If it cannot be denoised, its sensor cannot be had, clear air cannot be rendered, or `progress` asked to stop.
+/// If it cannot be denoised, clear air cannot be rendered, or `progress` asked to stop.
 pub(crate) fn finish(
     spec: &FrameSpec,
     resources: &Resources,
     (scene, fog): (&Scene, Option<&Fog>),
+    observer: &Observer,
     mut frame: Frame,
     config_digest: &str,
     progress: &(dyn Fn(Work) -> bool + Sync),
@@ -167,14 +169,13 @@ pub(crate) fn finish(
     if let Some(sky) = resources.surroundings().sky(&spec.lighting)? {
         record["lighting"]["sky"]["state"] = sky.state_json().clone();
     }
-    let chain = Chain::new(spec, &camera, exposure, resources)?;
+    let chain = Chain::new(spec, &camera, exposure, observer);
     if let Some(chain) = &chain {
         chain.write(&frame, resources, &mut record);
     }
     let camera_picture = chain.as_ref().map(|chain| chain.pictures(&frame, 0));
     let clear = if clear_air::is_wanted(spec) {
-        let observer = sensor::observer(spec, resources)?;
-        let clear = clear_air::render_clear(spec, scene, (&camera, &observer), &frame, progress)?;
+        let clear = clear_air::render_clear(spec, scene, (&camera, observer), &frame, progress)?;
         record["pair"] = clear_air::record_json(spec, &clear);
         Some(clear_air::picture(clear, chain.as_ref(), exposure))
     } else {
@@ -182,7 +183,7 @@ pub(crate) fn finish(
     };
     let denoiser = resources.denoiser(spec)?;
     let denoised = denoiser
-        .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, &resources.observer)))
+        .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, observer)))
         .transpose()?;
     let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
     let objects = objects

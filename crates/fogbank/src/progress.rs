@@ -76,8 +76,6 @@ pub enum Event<'a> {
         id: &'a str,
         /// Why.
         reason: &'a str,
-        /// Paths of the frame that will not be traced now.
-        paths: u64,
     },
     /// The index is written.
     Finished {

@@ -69,10 +69,10 @@ impl Selection {
             // By digest, or the costly frames of an axis could all fall to one.
             let mut order: Vec<usize> = (0..sets.len()).collect();
             order.sort_by(|&a, &b| frames[sets[a][0]].digest.cmp(&frames[sets[b][0]].digest));
-            let mut place = vec![0; sets.len()];
-            order.into_iter().enumerate().for_each(|(i, set)| place[set] = i as u64);
-            let mut place = place.into_iter();
-            sets.retain(|_| place.next().is_some_and(|i| i % count == index));
+            let mut own: Vec<usize> =
+                order.into_iter().zip(0..).filter(|(_, i)| i % count == index).map(|(set, _)| set).collect();
+            own.sort_unstable();
+            sets = own.into_iter().map(|set| std::mem::take(&mut sets[set])).collect();
         }
         sets
     }

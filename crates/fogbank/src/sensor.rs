@@ -18,12 +18,13 @@ use fog_sensor::raw::Sensor;
 use fog_sensor::vignetting::Vignetting;
 use fog_tracer::truth::TRANSMITTANCE_NM;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
 /// What the pixels of a frame's sensor see; none where it has no sensor, or one that sees what `hdr` is.
 ///
 /// # Errors
 /// If its curves cannot be had.
-pub(crate) fn response(spec: &FrameSpec, resources: &Resources) -> Result<Option<SensorResponse>, Error> {
+fn response(spec: &FrameSpec, resources: &Resources) -> Result<Option<SensorResponse>, Error> {
     let Some(model) = &spec.sensor.model else { return Ok(None) };
     let curves = match &model.response {
         ResponseSpec::Cie => return Ok(None),
@@ -42,11 +43,10 @@ pub(crate) fn response(spec: &FrameSpec, resources: &Resources) -> Result<Option
 ///
 /// # Errors
 /// As [`response`].
-pub(crate) fn observer(spec: &FrameSpec, resources: &Resources) -> Result<Observer, Error> {
-    let observer = resources.observer.clone();
+pub(crate) fn observer<'r>(spec: &FrameSpec, resources: &'r Resources) -> Result<Cow<'r, Observer>, Error> {
     Ok(match response(spec, resources)? {
-        Some(sensor) => observer.with_sensor(sensor),
-        None => observer,
+        Some(sensor) => Cow::Owned(resources.observer.clone().with_sensor(sensor)),
+        None => Cow::Borrowed(&resources.observer),
     })
 }
 
@@ -63,21 +63,17 @@ pub(crate) struct Chain<'a> {
 }
 
 impl<'a> Chain<'a> {
-    /// The chain of a frame that has a sensor.
-    ///
-    /// # Errors
-    /// If its curves cannot be had.
+    /// The chain of a frame that has a sensor; `observer` is the frame's ([`observer`]).
     pub(crate) fn new(
         spec: &'a FrameSpec,
         camera: &'a Camera,
         exposure: f64,
-        resources: &Resources,
-    ) -> Result<Option<Self>, Error> {
-        let Some(model) = &spec.sensor.model else { return Ok(None) };
-        let response = response(spec, resources)?;
-        let per_area = match &response {
+        observer: &Observer,
+    ) -> Option<Self> {
+        let model = spec.sensor.model.as_ref()?;
+        let per_area = match observer.sensor() {
             Some(response) => response.electrons_per_lx_s_m2(),
-            None => model.quantum_efficiency * resources.observer.photopic_photons_per_lx_s(),
+            None => model.quantum_efficiency * observer.photopic_photons_per_lx_s(),
         };
         let electrons_per_lx_s = per_area * (model.pixel_um * 1e-6).powi(2);
         let base_iso = SATURATION_LX_S * electrons_per_lx_s / model.full_well_e;
@@ -95,8 +91,8 @@ impl<'a> Chain<'a> {
             read_noise_e: model.read_noise_e,
             photon_noise: model.photon_noise,
         };
-        let colour = response.as_ref().and_then(|r| colour(r, &resources.observer)).unwrap_or(Colour::SRGB);
-        Ok(Some(Self { spec, model, camera, exposure, sensor, colour, base_iso }))
+        let colour = observer.sensor().and_then(|r| colour(r, observer)).unwrap_or(Colour::SRGB);
+        Some(Self { spec, model, camera, exposure, sensor, colour, base_iso })
     }
 
     /// The raw picture of a frame of this view and its development; `stream` tells pictures of one frame apart.

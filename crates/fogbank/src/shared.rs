@@ -129,13 +129,14 @@ fn one_pass(
     let (scene, _) = frame::scene(&base, resources)?;
     let camera = frame::camera(&base);
     let observer = sensor::observer(&base, resources)?;
-    let (settings, view) = (settings(&base), (&camera, &observer));
+    let (settings, view) = (settings(&base), (&camera, &*observer));
     let frames = render_shared(&scene, &media, &variants, view, &settings, base.seed, progress);
     let ids: Vec<&str> = pass.iter().map(|&i| set[i].id.as_str()).collect();
     let share = json!({ "frames": ids, "fogs": fogs.len(), "seed": base.seed });
     let done = |(&i, frame): (&usize, Result<_, fog_film::FrameError>)| {
         let (scene, fog) = made[i].as_ref().map_err(|_| Error::Cancelled)?;
-        let mut rendered = finish(set[i], resources, (scene, fog.as_ref()), frame?, config_digest, progress)?;
+        let own = (scene, fog.as_ref());
+        let mut rendered = finish(set[i], resources, own, &observer, frame?, config_digest, progress)?;
         rendered.record["share"] = share.clone();
         Ok(rendered)
     };

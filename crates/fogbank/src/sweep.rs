@@ -58,12 +58,16 @@ pub fn sweep(
             })
             .map_err(|e| Error::Workers(e.to_string()))??,
     };
-    let outcome = run(&job, options.workers, resources, progress);
-    let counts = match outcome {
-        // What is done stays done: the index says so.
-        Err(Error::Cancelled) => job.finish().and(Err(Error::Cancelled))?,
-        outcome => outcome.and_then(|()| job.finish())?,
+    let stopped = match run(&job, options.workers, resources, progress) {
+        Ok(()) => false,
+        Err(Error::Cancelled) => true,
+        Err(e) => return Err(e),
     };
+    // Of a sweep that was stopped, too, the index says what is done.
+    let counts = job.data_set.finish()?;
+    if stopped {
+        return Err(Error::Cancelled);
+    }
     progress.event(Event::Finished { counts });
     Ok(counts)
 }

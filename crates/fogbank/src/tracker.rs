@@ -46,8 +46,7 @@ impl<'a> Tracker<'a> {
                 self.progress.event(Event::FrameDone { id: &self.job.frames[frame].id, seconds, noise })
             }
             Report::Failed { frame, reason } => {
-                let (id, paths) = (&self.job.frames[frame].id, self.job.paths(frame));
-                self.progress.event(Event::FrameFailed { id, reason: &reason, paths })
+                self.progress.event(Event::FrameFailed { id: &self.job.frames[frame].id, reason: &reason })
             }
             Report::Through => {
                 self.forecast(|f| f.end(lane));

@@ -4,8 +4,8 @@ use crate::error::Error;
 use crate::frame::{Rendered, render_frame};
 use crate::resources::Resources;
 use crate::shared::render_set;
-use crate::sweep::{path_count, store};
-use fog_dataset::{Counts, DataSet};
+use crate::sweep::store;
+use fog_dataset::DataSet;
 use fog_plan::FrameSpec;
 use fog_tracer::render::Work;
 use serde::{Deserialize, Serialize};
@@ -45,11 +45,6 @@ impl Job {
     /// Specifications of a set's frames.
     pub(crate) fn specs(&self, set: usize) -> Vec<&FrameSpec> {
         self.todo[set].iter().map(|&i| &self.frames[i]).collect()
-    }
-
-    /// Paths that are traced for a frame's sake and will not be if it fails.
-    pub(crate) fn paths(&self, frame: usize) -> u64 {
-        path_count(&self.frames[frame])
     }
 
     /// The first frame of a set that is wanted, to name the set by.
@@ -109,14 +104,6 @@ impl Job {
             }
         }
         Ok(())
-    }
-
-    /// Writes the index, from what is there.
-    ///
-    /// # Errors
-    /// If the folder cannot be written.
-    pub(crate) fn finish(&self) -> Result<Counts, Error> {
-        Ok(self.data_set.finish()?)
     }
 }
 

@@ -14,8 +14,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<ExitCode> {
         print::news(format_args!("{}: {taken} frames taken", part.display()));
     }
     let counts = merged.counts;
-    let state = format!("{} done, {} failed, {} missing", counts.done, counts.failed, counts.missing);
-    print::news(format_args!("{}: {state}", args.out.display()));
+    print::news(format_args!("{}: {counts}", args.out.display()));
     let complete = counts.failed == 0 && counts.missing == 0;
     Ok(ExitCode::from(u8::from(!complete)))
 }

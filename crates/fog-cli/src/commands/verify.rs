@@ -10,11 +10,6 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode> {
     for problem in &report.problems {
         print::news(format_args!("{}: {}", problem.file, problem.reason));
     }
-    let counts = report.counts;
-    let dir = args.dir.display();
-    print::news(format_args!(
-        "{dir}: {} done, {} failed, {} missing",
-        counts.done, counts.failed, counts.missing
-    ));
+    print::news(format_args!("{}: {}", args.dir.display(), report.counts));
     Ok(ExitCode::from(u8::from(!report.is_complete())))
 }

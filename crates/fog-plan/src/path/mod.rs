@@ -9,7 +9,7 @@ pub(crate) use csv::CsvFiles;
 pub(crate) use glide_slope::{Approach, Dispersion, draw_lard, glide};
 pub(crate) use travel::{Travel, travel};
 
-use crate::{frame::CameraSpec, rig::PoseSpec};
+use crate::{draws, frame::CameraSpec, rig::PoseSpec};
 use serde::Serialize;
 
 /// Most poses of a path.
@@ -85,7 +85,5 @@ impl Path {
 
 /// Uniform number in [0, 1) of a seed, a pose and a dimension.
 pub(crate) fn uniform(seed: u64, index: usize, dimension: usize) -> f64 {
-    use fog_core::random::mix64;
-    let bits = mix64(mix64(mix64(seed ^ 0x7061_7468) ^ index as u64) ^ dimension as u64);
-    (bits >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+    draws::uniform(seed ^ 0x7061_7468, index, dimension)
 }

@@ -52,7 +52,7 @@ impl Check<'_> {
     fn foreign_scene_keys(&mut self, file: &SceneFile) {
         const WITH_SEED: &[WorldName] = &[Urban, Highway, Runway];
         const ROADS: &[WorldName] = &[Urban, Highway];
-        let keys: [(&'static str, bool, &[WorldName]); 16] = [
+        let keys: [(&'static str, bool, &[WorldName]); 17] = [
             ("seed", file.seed.is_some(), WITH_SEED),
             ("length_m", file.length_m.is_some(), WITH_SEED),
             ("style", file.style.is_some(), ROADS),
@@ -68,7 +68,8 @@ impl Check<'_> {
             ("flashers", file.flashers.is_some(), &[Runway]),
             ("boards_m", file.boards_m.is_some(), &[Targets]),
             ("black_m", file.black_m.is_some(), &[Targets]),
-            ("black_deg", file.black_deg.is_some() || file.eye_m.is_some(), &[Targets]),
+            ("black_deg", file.black_deg.is_some(), &[Targets]),
+            ("eye_m", file.eye_m.is_some(), &[Targets]),
         ];
         let own = file.generate;
         let owned = |owners: &[WorldName]| own.is_some_and(|name| owners.contains(&name));

@@ -13,7 +13,7 @@ use crate::texture::Texture;
 use crate::triangle::Triangle;
 use glam::{DMat3, DMat4, DQuat, DVec3, Vec3};
 use gltf::scene::Transform;
-use gltf::{Document, Node};
+use gltf::{Document, Mesh, Node};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -35,6 +35,9 @@ pub(super) struct Flat {
     pub(super) lights: PunctualLights,
     pub(super) light_names: LightNames,
 }
+
+/// The animation that moves the nodes, and the time.
+type Motion<'a> = Option<(&'a Animation, f64)>;
 
 /// What a node hands down to its children.
 #[derive(Clone)]
@@ -60,20 +63,16 @@ pub(super) fn scene_extras(document: &Document) -> serde_json::Value {
 /// Collects the triangles of the default scene, or of the first. The last of `materials` is the default one. With an animation
 /// everything is where it is at the time.
 pub(super) fn flatten(
-    (document, motion): (&Document, Option<(&Animation, f64)>),
+    (document, motion): (&Document, Motion<'_>),
     buffers: &Buffers,
-    (materials, textures): (&[Material], &[Texture]),
+    look: (&[Material], &[Texture]),
     distributions: &mut Distributions,
     max_triangles: usize,
     warnings: &mut Warnings,
 ) -> Result<Flat, Failure> {
     let scene = default_scene(document).ok_or_else(|| SceneErrorKind::Invalid("it has no scene".into()))?;
     let mut flat = Flat::default();
-    let mut meshes: BTreeMap<usize, Rc<[Primitive]>> = BTreeMap::new();
-    // Triangles are counted in 31 bits.
-    let max_triangles = max_triangles.min(i32::MAX as usize);
-    let mut left = max_triangles;
-    let mut degenerate = 0u64;
+    let mut meshes = Meshes::new(buffers, look, max_triangles);
 
     let root = Inherited { node: None, world: DMat4::IDENTITY, class: None, instance: None };
     let mut open: Vec<(Node<'_>, Inherited)> = scene.nodes().map(|node| (node, root.clone())).collect();
@@ -88,65 +87,14 @@ pub(super) fn flatten(
             let text = "is below itself, or has two parents: nodes must form a tree";
             return Err(SceneErrorKind::Node(text.into()).at(place));
         }
-        let mesh = node.mesh();
-        let label = |key: &str| {
-            let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
-            text(node.extras(), key).or_else(of_mesh)
-        };
-        let (class, instance) = (label("class"), label("instance"));
-        let owned = |label: &Option<Rc<str>>| label.as_deref().map(str::to_owned);
-        let local = match motion {
-            Some((animation, time_s)) => Ok(animation.nodes[node.index()].local_at(time_s)),
-            None => local_transform(&node),
-        };
-        let here = Inherited {
-            node: Some(flat.nodes.len() as u32),
-            world: above.world * local.map_err(|e| e.at(place))?,
-            class: class.clone().or_else(|| above.class.clone()),
-            instance: instance.clone().or_else(|| above.instance.clone()),
-        };
-        flat.nodes.push(SceneNode {
-            name: name.clone(),
-            parent: above.node,
-            class: owned(&class),
-            instance: owned(&instance),
-            keypoints: keypoints(node.extras()),
-            world: here.world,
-        });
+        let here = add_node(&node, &name, &above, motion, &mut flat).map_err(|e| e.at(place))?;
         if let Some(light) = node.light() {
             let out = (&mut flat.lights, &mut flat.light_names);
             lights::place((&light, &node), (&name, &here.world), distributions, out, warnings)?;
         }
-        if let Some(mesh) = mesh {
-            let primitives = match meshes.get(&mesh.index()) {
-                Some(primitives) => Rc::clone(primitives),
-                None => {
-                    let read =
-                        primitives::read(&mesh, buffers, (materials, textures), max_triangles, warnings)?;
-                    check_texture_sets(&read, &mesh_name(&mesh), materials, warnings);
-                    let read: Rc<[Primitive]> = read.into();
-                    meshes.insert(mesh.index(), Rc::clone(&read));
-                    read
-                }
-            };
-            let object = flat.objects.len() as u32;
+        if let Some(mesh) = node.mesh() {
             flat.object_nodes.push(node.index());
-            flat.objects.push(SceneObject {
-                node: flat.nodes.len() as u32 - 1,
-                name: name.clone(),
-                mesh: mesh.name().map(str::to_owned),
-                class: owned(&here.class),
-                instance: owned(&here.instance),
-            });
-            for primitive in primitives.iter() {
-                left = left.checked_sub(primitive.triangles.len()).ok_or_else(|| {
-                    Failure::from(SceneErrorKind::TooManyTriangles { limit: max_triangles })
-                })?;
-                let material = primitive.material.unwrap_or(materials.len() - 1) as u32;
-                let place = || format!("node `{name}`, mesh `{}`", mesh_name(&mesh));
-                degenerate += place_triangles(primitive, &here.world, material, object, &mut flat)
-                    .map_err(|e| e.at(place))?;
-            }
+            meshes.place(&mesh, &name, &here, &mut flat, warnings)?;
         }
         for child in node.children() {
             flat.parents[child.index()] = Some(node.index());
@@ -155,10 +103,108 @@ pub(super) fn flatten(
         open.extend(node.children().map(|child| (child, here.clone())));
         open[first_child..].reverse();
     }
-    if degenerate > 0 {
-        warnings.add(format!("{degenerate} triangles without area were left out"));
+    if meshes.degenerate > 0 {
+        warnings.add(format!("{} triangles without area were left out", meshes.degenerate));
     }
     Ok(flat)
+}
+
+/// Adds a node to the list of all; what it hands down.
+fn add_node(
+    node: &Node<'_>,
+    name: &str,
+    above: &Inherited,
+    motion: Motion<'_>,
+    flat: &mut Flat,
+) -> Result<Inherited, SceneErrorKind> {
+    let mesh = node.mesh();
+    let label = |key: &str| {
+        let of_mesh = || mesh.as_ref().and_then(|mesh| text(mesh.extras(), key));
+        text(node.extras(), key).or_else(of_mesh)
+    };
+    let (class, instance) = (label("class"), label("instance"));
+    let local = match motion {
+        Some((animation, time_s)) => animation.nodes[node.index()].local_at(time_s),
+        None => local_transform(node)?,
+    };
+    let world = above.world * local;
+    flat.nodes.push(SceneNode {
+        name: name.to_owned(),
+        parent: above.node,
+        class: owned(&class),
+        instance: owned(&instance),
+        keypoints: keypoints(node.extras()),
+        world,
+    });
+    Ok(Inherited {
+        node: Some(flat.nodes.len() as u32 - 1),
+        world,
+        class: class.or_else(|| above.class.clone()),
+        instance: instance.or_else(|| above.instance.clone()),
+    })
+}
+
+fn owned(label: &Option<Rc<str>>) -> Option<String> {
+    label.as_deref().map(str::to_owned)
+}
+
+/// The meshes of a document, each read once, and how many triangles may still be placed.
+struct Meshes<'a> {
+    buffers: &'a Buffers,
+    look: (&'a [Material], &'a [Texture]),
+    max_triangles: usize,
+    left: usize,
+    /// Triangles without area.
+    degenerate: u64,
+    known: BTreeMap<usize, Rc<[Primitive]>>,
+}
+
+impl<'a> Meshes<'a> {
+    fn new(buffers: &'a Buffers, look: (&'a [Material], &'a [Texture]), max_triangles: usize) -> Self {
+        // Triangles are counted in 31 bits.
+        let max_triangles = max_triangles.min(i32::MAX as usize);
+        Self { buffers, look, max_triangles, left: max_triangles, degenerate: 0, known: BTreeMap::new() }
+    }
+
+    fn read(&mut self, mesh: &Mesh<'_>, warnings: &mut Warnings) -> Result<Rc<[Primitive]>, Failure> {
+        if let Some(known) = self.known.get(&mesh.index()) {
+            return Ok(Rc::clone(known));
+        }
+        let read = primitives::read(mesh, self.buffers, self.look, self.max_triangles, warnings)?;
+        check_texture_sets(&read, &mesh_name(mesh), self.look.0, warnings);
+        let read: Rc<[Primitive]> = read.into();
+        self.known.insert(mesh.index(), Rc::clone(&read));
+        Ok(read)
+    }
+
+    /// Adds the mesh of the node that was added last, of this name.
+    fn place(
+        &mut self,
+        mesh: &Mesh<'_>,
+        name: &str,
+        here: &Inherited,
+        flat: &mut Flat,
+        warnings: &mut Warnings,
+    ) -> Result<(), Failure> {
+        let primitives = self.read(mesh, warnings)?;
+        let object = flat.objects.len() as u32;
+        flat.objects.push(SceneObject {
+            node: flat.nodes.len() as u32 - 1,
+            name: name.to_owned(),
+            mesh: mesh.name().map(str::to_owned),
+            class: owned(&here.class),
+            instance: owned(&here.instance),
+        });
+        for primitive in primitives.iter() {
+            let too_many = || SceneErrorKind::TooManyTriangles { limit: self.max_triangles };
+            self.left = self.left.checked_sub(primitive.triangles.len()).ok_or_else(too_many)?;
+            let material = primitive.material.unwrap_or(self.look.0.len() - 1) as u32;
+            let place = || format!("node `{name}`, mesh `{}`", mesh_name(mesh));
+            self.degenerate +=
+                place_triangles(primitive, &here.world, material, object, flat).map_err(|e| e.at(place))?;
+        }
+        Ok(())
+    }
 }
 
 pub(super) fn node_name(node: &Node<'_>) -> String {

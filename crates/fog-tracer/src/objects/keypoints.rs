@@ -48,10 +48,8 @@ impl Keypoint {
         let way = point - eye;
         let distance = way.length();
         let in_image = image.is_some_and(|image| view.camera.contains(image));
-        let depth = view.scene.medium.as_ref().map_or(0.0, |medium| {
-            let direction = way.normalize_or_zero();
-            medium.optical_depths_at(eye, direction, f64::from(distance), [TAU_NM; 4])[0]
-        });
+        let direction = way.normalize_or_zero();
+        let [depth] = view.scene.optical_depths_at(eye, direction, f64::from(distance), [TAU_NM]);
         Self {
             name: name.clone(),
             world: *world,

@@ -122,9 +122,7 @@ pub(crate) fn of_frame(
     let tau = |from: DVec3, to: DVec3| {
         let way = to - from;
         let direction = way.normalize_or_zero().as_vec3a();
-        scene.medium.as_ref().map_or(0.0, |medium| {
-            medium.optical_depths_at(from.as_vec3a(), direction, way.length(), [TAU_NM])[0]
-        })
+        scene.optical_depths_at(from.as_vec3a(), direction, way.length(), [TAU_NM])[0]
     };
     let sigma_t =
         |y: f64| fog.map_or(Ok(0.0), |fog| fog.state(fog.altitude_m(y)).map(|state| state.sigma_t_550_1_m));

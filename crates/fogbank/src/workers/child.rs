@@ -32,8 +32,8 @@ impl Child {
     pub(super) fn fork(work: impl FnOnce(File, File)) -> nix::Result<Self> {
         let (task_reader, task_writer) = pipe()?;
         let (event_reader, event_writer) = pipe()?;
-        // SAFETY: the child of a process with threads may hold locks that nobody will release. The callers have joined theirs
-        // (`Sweep` makes tables and scenes on a scoped pool), and the child starts a pool of its own.
+        // SAFETY: the child of a process with threads may hold locks that nobody will release. The caller has none left (`sweep`
+        // makes tables and scenes on a scoped pool), and the child starts a pool of its own.
         match unsafe { fork() }? {
             ForkResult::Child => {
                 drop((task_writer, event_reader));
@@ -97,10 +97,11 @@ impl Child {
 
     /// Ends it at once, if it has not ended; says how it ended.
     pub(super) fn kill(self) -> String {
-        let ours = kill(self.pid, Signal::SIGKILL);
+        // One that has ended keeps its own end.
+        let _ = kill(self.pid, Signal::SIGKILL);
         match waitpid(self.pid, None) {
             Ok(WaitStatus::Exited(_, code)) => format!("ended with status {code}"),
-            Ok(WaitStatus::Signaled(_, Signal::SIGKILL, _)) if ours.is_ok() => {
+            Ok(WaitStatus::Signaled(_, Signal::SIGKILL, _)) => {
                 "was killed (SIGKILL: perhaps memory ran out)".to_owned()
             }
             Ok(WaitStatus::Signaled(_, signal, _)) => format!("died of {signal}"),
