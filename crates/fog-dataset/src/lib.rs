@@ -1,7 +1,7 @@
 //! Frames and their records to files, and back: layout, markers, resume and verification. Also single pictures, ours and
 //! those of others, to compare ([`read_picture`]).
 //!
-//! A data set is a folder:
+//! A data set is a folder, or a prefix of a bucket in an object store ([`Store`]):
 //!
 //! | file | content |
 //! |---|---|
@@ -24,12 +24,11 @@
 //! | `<id>.failed.json` | why the frame failed; gone when it later succeeds |
 //! | `index.csv` | one line per frame of the plan, written by [`DataSet::finish`] |
 //!
-//! Every file is written aside, synced and renamed, so that it appears only when whole. Several processes may work in
+//! In a folder every file is written aside, synced and renamed, so that it appears only when whole, as objects do. Several processes may work in
 //! one folder: a frame's bytes depend on the frame alone, so it does not matter which of two writers wins. All bytes but
 //! the timings are reproducible, those of `denoised` with the same library on the same kind of processor only; nothing here reads the clock but the age check of abandoned temporary files on
 //! file systems without locks.
 
-mod atomic;
 mod data_set;
 mod denoised;
 mod encode;
@@ -38,6 +37,7 @@ mod estimate;
 mod exr_file;
 mod exr_header;
 mod frame_files;
+mod frame_list;
 mod header;
 mod index;
 mod layers;
@@ -49,6 +49,9 @@ mod outputs;
 mod picture_file;
 mod plan;
 mod read;
+mod side_by_side;
+mod store;
+mod survey;
 mod verify;
 
 pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
@@ -56,12 +59,14 @@ pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
 pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles};
+pub use frame_list::FrameList;
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use merge::{Merged, merge};
 pub use opening::Opening;
 pub use outputs::OutputSet;
 pub use picture_file::{read_picture, write_png};
-pub use plan::PlanFrame;
-pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan, read_record};
+pub use plan::{EachFrame, PlanFrame, Planned, read_plan};
+pub use read::{StoredFrame, picture_path, read_frame, read_header, read_record};
+pub use store::Store;
 pub use verify::{Problem, Report, verify};
