@@ -2,6 +2,7 @@
 
 mod compare;
 mod emit;
+mod export;
 mod figures;
 mod fit;
 mod fog_source;
@@ -17,6 +18,7 @@ mod visibility;
 
 pub(crate) use compare::CompareArgs;
 pub(crate) use emit::{EmitArgs, EmitCommand, KubernetesArgs, PartsArgs, SlurmArgs};
+pub(crate) use export::ExportArgs;
 pub(crate) use figures::{FigureFormat, FiguresArgs};
 pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
 pub(crate) use fog_source::FogSourceArgs;
@@ -71,6 +73,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Write a sweep as a job array of a cluster.
     Emit(EmitArgs),
+    /// Write a data set in a format of others: COCO and more, without rendering anything again.
+    Export(ExportArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.
@@ -100,13 +104,14 @@ pub(crate) struct ConfigArgs {
 /// How to work.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct WorkArgs {
-    /// Folder of the data set; made if it is not there.
+    /// Folder of the data set, made if it is not there; or s3://BUCKET/PREFIX, gs://BUCKET/PREFIX, az://CONTAINER/PREFIX.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Threads to render with [default: all cores]. Does not change a single byte of the result.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder].
+    /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder]; one of a bucket
+    /// (s3://…) stands behind that folder and is shared by many machines.
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
     /// Library of Open Image Denoise 2, or its folder, for the output `denoised` [default: the environment variable
@@ -158,6 +163,6 @@ pub(crate) struct PlanArgs {
 /// Arguments of `verify`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct VerifyArgs {
-    /// Folder of the data set.
+    /// Folder of the data set, or s3://, gs://, az://.
     pub(crate) dir: PathBuf,
 }

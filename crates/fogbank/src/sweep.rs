@@ -11,7 +11,8 @@ use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
 use crate::{CODE_DIGEST, camera_record, changed_files, clear_air, frame, labels, sensor};
 use fog_dataset::{
-    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
+    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame, Planned,
+    Store,
 };
 use fog_plan::{FrameSpec, Plan};
 use serde_json::json;
@@ -98,14 +99,17 @@ fn prepare(
 
     // 2. The data set: new, or the same one begun earlier.
     let data_set = open(plan, &frames, dir, options.opening)?;
-    changed_files::refuse(&data_set, &frames, resources)?;
+    let states = data_set.states()?;
+    changed_files::refuse(&data_set, &states, &frames, resources)?;
     if options.opening == Opening::Overwrite {
-        selected.iter().try_for_each(|&i| data_set.forget(&frames[i].id))?;
+        let there = selected.iter().filter(|&&i| states[i] != FrameState::Missing);
+        there.into_iter().try_for_each(|&i| data_set.forget(&frames[i].id))?;
     }
+    let overwritten = options.opening == Opening::Overwrite;
     let (mut done, mut failed) = (0, 0);
     for &i in &selected {
         let id = &frames[i].id;
-        let mut state = data_set.state(id);
+        let mut state = if overwritten { FrameState::Missing } else { states[i] };
         if options.recheck && state == FrameState::Done && !data_set.is_intact(id) {
             progress.event(Event::Warning(format!("frame {id} is damaged and will be rendered again")));
             data_set.forget(id)?;
@@ -254,17 +258,24 @@ pub fn output_set(spec: &FrameSpec) -> OutputSet {
     OutputSet { groups: !spec.lighting.groups.is_empty(), ..set }
 }
 
+/// A frame as the data set's plan has it.
+fn plan_frame(f: &FrameSpec) -> PlanFrame {
+    PlanFrame {
+        id: f.id.clone(),
+        pair_id: Some(f.pair_id.clone()),
+        axes: f.axes.iter().cloned().collect(),
+        outputs: output_set(f),
+        spec: json!(f),
+    }
+}
+
 fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Result<DataSet, Error> {
-    let plan_frames = frames
-        .iter()
-        .map(|f| PlanFrame {
-            id: f.id.clone(),
-            pair_id: Some(f.pair_id.clone()),
-            axes: f.axes.iter().cloned().collect(),
-            outputs: output_set(f),
-            spec: json!(f),
-        })
-        .collect();
+    let store = Store::at(dir)?;
+    let each = |each: &mut dyn FnMut(&PlanFrame) -> fog_dataset::Result<()>| {
+        frames.iter().map(plan_frame).try_for_each(|frame| each(&frame))
+    };
+    let mut planned = Planned::default();
+    each(&mut |frame| planned.push(frame))?;
     let details = json!({
         "generator": "Fogbank",
         "version": env!("CARGO_PKG_VERSION"),
@@ -278,12 +289,13 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Resu
         config_yaml: &config_yaml,
         config_digest: &plan.config_digest(),
         code_digest: CODE_DIGEST,
-        plan: plan_frames,
+        plan: planned,
+        frames: &each,
         classes: classes.as_ref(),
         details: &details,
     };
     let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
-    Ok(DataSet::create_or_open(dir, info, opening, &differ)?)
+    Ok(DataSet::create_or_open(store, info, opening, &differ)?)
 }
 
 pub(crate) fn store(
@@ -306,6 +318,8 @@ pub(crate) fn store(
         camera: rendered.camera_picture.as_ref(),
         clear: rendered.clear.as_ref(),
         exposure: rendered.exposure as f32,
+        instances: &rendered.instances,
+        view: camera_record::view(spec, &rendered.camera),
         seconds,
         attributes: &attributes,
     })?;

@@ -150,14 +150,6 @@ impl Store {
         }
     }
 
-    /// Whether there is such a file.
-    ///
-    /// # Errors
-    /// [`Error::Io`] when that cannot be known.
-    pub(crate) fn has(&self, name: &str) -> Result<bool> {
-        Ok(self.if_there(name, self.size(name))?.is_some())
-    }
-
     /// Size of a file in bytes, and its BLAKE3 hash.
     ///
     /// # Errors
