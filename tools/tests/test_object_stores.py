@@ -178,11 +178,11 @@ def test_the_bytes_of_a_folder_from_a_server_that_fails(bucket, tmp_path):
 
 
 def test_tables_are_shared_by_a_bucket(bucket, tmp_path):
-    """A table of some 4 MB and one in parts: put by the one who builds it, fetched by others."""
+    """A table is put by the one who builds it, and fetched by others."""
     s3, failing, _ = bucket
     (tmp_path / "c.yaml").write_text(
-        "version: 1\nname: t\nscene: none\nfog: {model: droplets, height_m: 60, droplets: {lognormals: [{median_diameter_um: 8, "
-        "geometric_sd: 1.3, number_1_m3: 1e8}]}}\nlighting: day\nsensor: {width_px: 2, height_px: 2}\nrender: {samples: 1}\n"
+        "version: 1\nname: t\nscene: none\nfog: {model: droplets, height_m: 60, number_density_1_m3: 1e8, "
+        "droplets: {lognormals: [{share: 1, median_diameter_um: 8, geometric_sd: 1.3}]}}\nlighting: day\nsensor: {width_px: 2, height_px: 2}\nrender: {samples: 1}\n"
     )
 
     def run(home):
