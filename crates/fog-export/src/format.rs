@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::job::{Job, Writer};
+use crate::lard::{self, Edition, Lard};
 use crate::{Error, Result, cityscapes, coco, kitti};
 
 /// A format of others.
@@ -14,6 +15,10 @@ pub enum Format {
     Kitti,
     /// Cityscapes: pictures, labels as pictures and polygons, cameras, disparity of stereo rigs.
     Cityscapes,
+    /// LARD's first edition: pictures of runways, and a CSV file of their corners.
+    LardV1,
+    /// LARD's second edition.
+    LardV2,
 }
 
 /// What is to be said of a format.
@@ -25,7 +30,7 @@ struct Entry {
 
 impl Format {
     /// All of them.
-    pub const ALL: &'static [Self] = &[Self::Coco, Self::Kitti, Self::Cityscapes];
+    pub const ALL: &'static [Self] = &[Self::Coco, Self::Kitti, Self::Cityscapes, Self::LardV1, Self::LardV2];
 
     fn entry(self) -> Entry {
         match self {
@@ -43,6 +48,16 @@ impl Format {
                 name: "cityscapes",
                 about: "leftImg8bit/, gtFine/, camera/; of stereo rigs rightImg8bit/, disparity/",
                 needs: cityscapes::NEEDS,
+            },
+            Self::LardV1 => Entry {
+                name: "lard-v1",
+                about: "images/ and a CSV file: corners of runways, distances and angles of the approach",
+                needs: lard::NEEDS,
+            },
+            Self::LardV2 => Entry {
+                name: "lard-v2",
+                about: "the same in the columns of 2025: several runways, cut ones too",
+                needs: lard::NEEDS,
             },
         }
     }
@@ -83,6 +98,8 @@ impl Format {
             Self::Coco => Box::new(coco::Coco::begin(job)?),
             Self::Kitti => Box::new(kitti::Kitti::begin(job)?),
             Self::Cityscapes => Box::new(cityscapes::Cityscapes::begin(job)?),
+            Self::LardV1 => Box::new(Lard::begin(job, Edition::V1)?),
+            Self::LardV2 => Box::new(Lard::begin(job, Edition::V2)?),
         })
     }
 }

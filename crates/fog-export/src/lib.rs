@@ -16,6 +16,7 @@ mod format;
 mod frame;
 mod job;
 mod kitti;
+mod lard;
 mod png;
 mod run;
 mod summary;
