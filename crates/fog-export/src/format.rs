@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::job::{Job, Writer};
 use crate::lard::{self, Edition, Lard};
-use crate::{Error, Result, cityscapes, coco, kitti};
+use crate::{Error, Result, cityscapes, coco, kitti, nuscenes};
 
 /// A format of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub enum Format {
     LardV1,
     /// LARD's second edition.
     LardV2,
+    /// nuScenes: pictures, and the 13 tables of its schema.
+    Nuscenes,
 }
 
 /// What is to be said of a format.
@@ -30,7 +32,8 @@ struct Entry {
 
 impl Format {
     /// All of them.
-    pub const ALL: &'static [Self] = &[Self::Coco, Self::Kitti, Self::Cityscapes, Self::LardV1, Self::LardV2];
+    pub const ALL: &'static [Self] =
+        &[Self::Coco, Self::Kitti, Self::Cityscapes, Self::LardV1, Self::LardV2, Self::Nuscenes];
 
     fn entry(self) -> Entry {
         match self {
@@ -58,6 +61,11 @@ impl Format {
                 name: "lard-v2",
                 about: "the same in the columns of 2025: several runways, cut ones too",
                 needs: lard::NEEDS,
+            },
+            Self::Nuscenes => Entry {
+                name: "nuscenes",
+                about: "samples/ and v1.0-fogbank/ with the 13 tables: scenes, poses, boxes, instances",
+                needs: nuscenes::NEEDS,
             },
         }
     }
@@ -100,6 +108,7 @@ impl Format {
             Self::Cityscapes => Box::new(cityscapes::Cityscapes::begin(job)?),
             Self::LardV1 => Box::new(Lard::begin(job, Edition::V1)?),
             Self::LardV2 => Box::new(Lard::begin(job, Edition::V2)?),
+            Self::Nuscenes => Box::new(nuscenes::Nuscenes::begin(job)?),
         })
     }
 }

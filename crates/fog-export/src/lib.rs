@@ -17,6 +17,7 @@ mod frame;
 mod job;
 mod kitti;
 mod lard;
+mod nuscenes;
 mod png;
 mod run;
 mod summary;
