@@ -326,6 +326,8 @@ pub(crate) fn store(
         camera: rendered.camera_picture.as_ref(),
         clear: rendered.clear.as_ref(),
         exposure: rendered.exposure as f32,
+        instances: &rendered.instances,
+        view: camera_record::view(spec, &rendered.camera),
         seconds,
         attributes: &attributes,
     })?;
