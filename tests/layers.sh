@@ -9,7 +9,7 @@ layer() {
     fog-core) echo 0 ;;
     fog-optics | fog-scene | fog-film | fog-sensor | fog-plan | fog-denoise | fog-worlds) echo 1 ;;
     fog-tracer | fog-dataset | fog-figures) echo 2 ;;
-    fogbank) echo 3 ;;
+    fogbank | fog-export) echo 3 ;;
     fog-cli) echo 4 ;;
     *) echo "layers: $1 has no layer; add it to tests/layers.sh and ARCHITECTURE.md" >&2; exit 1 ;;
   esac

@@ -2,6 +2,7 @@
 
 mod compare;
 mod emit;
+mod export;
 mod figures;
 mod fit;
 mod fog_source;
@@ -17,6 +18,7 @@ mod visibility;
 
 pub(crate) use compare::CompareArgs;
 pub(crate) use emit::{EmitArgs, EmitCommand, KubernetesArgs, PartsArgs, SlurmArgs};
+pub(crate) use export::ExportArgs;
 pub(crate) use figures::{FigureFormat, FiguresArgs};
 pub(crate) use fit::{FitArgs, FitCommand, SyntheticArgs};
 pub(crate) use fog_source::FogSourceArgs;
@@ -71,6 +73,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Write a sweep as a job array of a cluster.
     Emit(EmitArgs),
+    /// Write a data set in a format of others: COCO and more, without rendering anything again.
+    Export(ExportArgs),
     /// Compare every file of a data set with its recorded hash.
     Verify(VerifyArgs),
     /// Draw figures of a fog model: droplets, optics, visibility, and what droplets do to sunlight.

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         args::Command::Fit(args) => commands::fit::run(&args),
         args::Command::Merge(args) => commands::merge::run(&args),
         args::Command::Emit(args) => commands::emit::run(&args),
+        args::Command::Export(args) => commands::export::run(&args),
         args::Command::Verify(args) => commands::verify::run(&args),
         args::Command::Figures(args) => commands::figures::run(&args),
         args::Command::Visibility(args) => commands::visibility::run(&args),
@@ -38,12 +39,14 @@ fn main() -> ExitCode {
         Err(error) if print::reader_has_gone(&error) => ExitCode::SUCCESS,
         Err(error) => {
             let ours = error.downcast_ref::<fogbank::Error>();
+            let export = error.downcast_ref::<fog_export::Error>();
             // Our own messages hold their causes already.
-            let message = ours.map_or_else(|| format!("{error:#}"), ToString::to_string);
+            let is_ours = ours.is_some() || export.is_some();
+            let message = if is_ours { error.to_string() } else { format!("{error:#}") };
             print::complaint(format_args!("fogbank: {message}"));
-            ExitCode::from(match ours {
-                Some(fogbank::Error::Cancelled) => 130,
-                Some(e) if !e.is_user_mistake() => 1,
+            ExitCode::from(match (ours, export) {
+                (Some(fogbank::Error::Cancelled), _) | (_, Some(fog_export::Error::Cancelled)) => 130,
+                (Some(e), _) if !e.is_user_mistake() => 1,
                 _ => 2,
             })
         }

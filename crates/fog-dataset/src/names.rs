@@ -10,22 +10,38 @@ pub(crate) const INDEX: &str = "index.csv";
 
 /// The kinds of file that a frame can have, by what follows the id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub enum Kind {
+    /// `rgb.png`: the sRGB picture.
     Image,
+    /// `hdr.exr`: radiance.
     Hdr,
+    /// `gt.exr`: truth per pixel.
     Truth,
+    /// `raw.png`: the sensor's raw picture.
     Raw,
+    /// `clear.exr`: radiance in clear air.
     Clear,
+    /// `clear.rgb.png`: its sRGB picture.
     ClearImage,
+    /// `json`: the record.
     Record,
+    /// `semantic.png`: classes.
     Semantic,
+    /// `instance.png`: instances.
     Instance,
+    /// `objects.json`: records of the things in the picture.
     Objects,
+    /// `denoised.exr`: a guess at the radiance without noise.
     Denoised,
+    /// `denoised.png`: its sRGB picture.
     DenoisedImage,
+    /// `denoised.json`: what guessed it.
     Denoising,
+    /// `timing.json`: seconds.
     Timing,
+    /// `done`: the marker.
     Done,
+    /// `failed.json`: why the frame failed.
     Failed,
 }
 
@@ -55,7 +71,8 @@ impl Kind {
     }
 
     /// File name of this kind for a frame.
-    pub(crate) fn file(self, id: &str) -> String {
+    #[must_use]
+    pub fn file(self, id: &str) -> String {
         let suffix = match self {
             Self::Image => "rgb.png",
             Self::Hdr => "hdr.exr",
@@ -78,7 +95,8 @@ impl Kind {
     }
 
     /// Whether the outputs ask for this hashed kind.
-    pub(crate) fn wanted(self, outputs: OutputSet) -> bool {
+    #[must_use]
+    pub fn wanted(self, outputs: OutputSet) -> bool {
         match self {
             Self::Image => outputs.image,
             Self::Hdr => outputs.wants_hdr_file(),

@@ -2,6 +2,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod emit;
+pub(crate) mod export;
 pub(crate) mod figures;
 pub(crate) mod fit;
 mod fog_source;

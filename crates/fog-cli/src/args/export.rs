@@ -1,0 +1,47 @@
+//! Arguments of `export`.
+
+use clap::Args as ClapArgs;
+use fog_export::Format;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Formats:
+  coco         images/ and annotations/instances.json: boxes, masks (RLE), keypoints
+
+Examples:
+  fogbank export out/town --format coco --out town-coco
+  fogbank export out/town --format coco --out town-cars --classes car,truck,bus
+
+Nothing is rendered again: a format is made of the outputs that the data set has, and says which ones it lacks. Frames that are
+not done are left out and counted. What a format cannot hold is counted and told, here and in X/export.json. The folder X appears
+when the export is whole; until then it is X.partial, which goes when the export is stopped. Axes, units and what becomes of
+what: docs/export.md.
+
+Exit codes: 0 every frame of the plan is exported, 1 some are missing or failed, 2 wrong arguments or files, 130 stopped.";
+
+/// What to export, how and where.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct ExportArgs {
+    /// Folder of the data set.
+    pub(crate) dir: PathBuf,
+    /// Format to write; see below.
+    #[arg(long, value_name = "F", value_parser = format)]
+    pub(crate) format: Format,
+    /// Folder of the export: a new or empty one. The same export there is kept as it is.
+    #[arg(long, value_name = "X")]
+    pub(crate) out: PathBuf,
+    /// Replace another export in the folder. Folders that are no exports are never replaced.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Only things of these classes, as `car,person`; formats of label masks keep every class.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) classes: Vec<String>,
+    /// Print errors only.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+fn format(name: &str) -> Result<Format, String> {
+    Format::from_name(name).map_err(|e| e.to_string())
+}
