@@ -30,9 +30,27 @@ pub struct FrameFiles<'a> {
     pub clear: Option<&'a ClearPicture>,
     /// Seconds that the frame took; go to `<id>.timing.json` only.
     pub seconds: f64,
-    /// Custom attributes for the EXR files (camera pose, intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
+    /// Names of the things by number, that of instance i of the mask at i − 1; may be empty where no mask is asked for.
+    pub instances: &'a [String],
+    /// The view, for attributes of the EXR files that OpenEXR defines.
+    pub view: View,
+    /// Custom attributes for the EXR files (intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
     /// and `wavelength_nm` are set here and win.
     pub attributes: &'a BTreeMap<String, Attribute>,
+}
+
+/// A frame's view in OpenEXR's conventions (openexr.com, "Standard Attributes": the spaces of RenderMan). Points are row
+/// vectors on the left of the matrices, which are stored row by row: the last four numbers of `world_to_camera` are the
+/// world's origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// `worldToCamera`: x right, y up, z forward, in metres; left-handed.
+    pub world_to_camera: Option<[f32; 16]>,
+    /// `worldToNDC`: after division by the fourth coordinate x and y from (0, 0), the upper left corner of the image, to (1, 1),
+    /// the lower right one; only of lenses without distortion.
+    pub world_to_ndc: Option<[f32; 16]>,
+    /// `whiteLuminance`: luminance of R = G = B = 1; goes to files of colours only.
+    pub white_luminance_cd_m2: Option<f32>,
 }
 
 /// What a frame's sensor gives.

@@ -11,6 +11,8 @@ pub(crate) struct Class {
     /// Its number in the semantic mask: Cityscapes' up to 33.
     pub(crate) id: u16,
     pub(crate) name: String,
+    /// 8-bit sRGB.
+    pub(crate) colour: [u8; 3],
     chosen: bool,
 }
 
@@ -44,9 +46,11 @@ impl Classes {
         let file = job.reader.classes()?.unwrap_or_default();
         let asked = &job.options.classes;
         let class = |value: &Value| {
+            let channel = |c: usize| value["colour"][c].as_u64().and_then(|v| u8::try_from(v).ok());
             let name = value["name"].as_str()?.to_owned();
             Some(Class {
                 id: value["id"].as_u64().and_then(|id| u16::try_from(id).ok())?,
+                colour: [channel(0)?, channel(1)?, channel(2)?],
                 chosen: asked.is_empty() || asked.contains(&name),
                 name,
             })

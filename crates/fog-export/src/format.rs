@@ -3,41 +3,66 @@
 use std::fmt;
 
 use crate::job::{Job, Writer};
-use crate::{Error, Result, coco};
+use crate::{Error, Result, cityscapes, coco, kitti};
 
 /// A format of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// COCO: one JSON file of images, boxes, masks and keypoints.
+    /// COCO: pictures, and one JSON file of boxes, masks and keypoints.
     Coco,
+    /// KITTI: pictures, labels, calibration and depth of the object benchmark, and sequences of the odometry benchmark.
+    Kitti,
+    /// Cityscapes: pictures, labels as pictures and polygons, cameras, disparity of stereo rigs.
+    Cityscapes,
+}
+
+/// What is to be said of a format.
+struct Entry {
+    name: &'static str,
+    about: &'static str,
+    needs: &'static [&'static str],
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::Coco];
+    pub const ALL: &'static [Self] = &[Self::Coco, Self::Kitti, Self::Cityscapes];
+
+    fn entry(self) -> Entry {
+        match self {
+            Self::Coco => Entry {
+                name: "coco",
+                about: "images/, annotations/instances.json: boxes, masks (RLE), keypoints",
+                needs: coco::NEEDS,
+            },
+            Self::Kitti => Entry {
+                name: "kitti",
+                about: "training/ with image_2, label_2, calib, depth_2; odometry/ of paths",
+                needs: kitti::NEEDS,
+            },
+            Self::Cityscapes => Entry {
+                name: "cityscapes",
+                about: "leftImg8bit/, gtFine/, camera/; of stereo rigs rightImg8bit/, disparity/",
+                needs: cityscapes::NEEDS,
+            },
+        }
+    }
 
     /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Coco => "coco",
-        }
+        self.entry().name
     }
 
-    /// What it is made of, in a line.
+    /// What it writes, in a line.
     #[must_use]
     pub fn about(self) -> &'static str {
-        match self {
-            Self::Coco => "COCO: images/, annotations/instances.json with boxes, masks (RLE), keypoints",
-        }
+        self.entry().about
     }
 
     /// The outputs that every frame must have been rendered with.
     #[must_use]
     pub fn needs(self) -> &'static [&'static str] {
-        match self {
-            Self::Coco => coco::NEEDS,
-        }
+        self.entry().needs
     }
 
     /// The format of a name.
@@ -45,15 +70,19 @@ impl Format {
     /// # Errors
     /// [`Error::Option`] if there is none.
     pub fn from_name(name: &str) -> Result<Self> {
-        let names = || Self::ALL.map(Self::name).join(", ");
-        let found = Self::ALL.into_iter().find(|format| format.name() == name);
-        found.ok_or_else(|| Error::Option(format!("unknown format `{name}`, expected one of {}", names())))
+        let found = Self::ALL.iter().copied().find(|format| format.name() == name);
+        found.ok_or_else(|| {
+            let names: Vec<&str> = Self::ALL.iter().map(|format| format.name()).collect();
+            Error::Option(format!("unknown format `{name}`, expected one of {}", names.join(", ")))
+        })
     }
 
     /// A writer of it.
     pub(crate) fn writer<'a>(self, job: &'a Job<'a>) -> Result<Box<dyn Writer + 'a>> {
         Ok(match self {
             Self::Coco => Box::new(coco::Coco::begin(job)?),
+            Self::Kitti => Box::new(kitti::Kitti::begin(job)?),
+            Self::Cityscapes => Box::new(cityscapes::Cityscapes::begin(job)?),
         })
     }
 }

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use fog_dataset::{FileKind, Mask, PlanFrame, Reader};
+use fog_dataset::{Channel, FileKind, Mask, OutputSet, PlanFrame, Reader};
 use serde_json::{Value, json};
 
 use crate::{Error, Result};
@@ -25,6 +25,10 @@ impl<'a> Frame<'a> {
 
     pub(crate) fn id(&self) -> &str {
         &self.plan.id
+    }
+
+    pub(crate) fn outputs(&self) -> OutputSet {
+        self.plan.outputs
     }
 
     /// Columns and rows.
@@ -77,6 +81,12 @@ impl<'a> Frame<'a> {
     /// Classes, instances or the raw picture.
     pub(crate) fn mask(&self, kind: FileKind) -> Result<Mask> {
         Ok(self.reader.mask(self.plan, kind)?)
+    }
+
+    /// A channel of an OpenEXR file of the frame.
+    pub(crate) fn channel(&self, kind: FileKind, name: &str) -> Result<Channel> {
+        let found = self.reader.channels(self.plan, kind)?.remove(name);
+        found.ok_or_else(|| self.damaged("gt.exr", format!("it has no channel {name}")))
     }
 
     /// An error about the content of one of the frame's files.

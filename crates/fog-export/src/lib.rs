@@ -6,6 +6,8 @@
 //!
 //! A format is one module: a type that implements `Writer`, entered in [`Format`]. `docs/export.md` tells what becomes of what.
 
+mod camera;
+mod cityscapes;
 mod classes;
 mod coco;
 mod error;
@@ -13,8 +15,11 @@ mod folder;
 mod format;
 mod frame;
 mod job;
+mod kitti;
+mod png;
 mod run;
 mod summary;
+mod track;
 
 pub use error::{Error, Result};
 pub use format::Format;

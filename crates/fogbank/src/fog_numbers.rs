@@ -164,9 +164,19 @@ impl FogNumbers {
         Ok(values)
     }
 
-    /// Checks the arguments and makes the fog at wavelengths that are new.
-    fn check(&self, altitude_m: &[f64], wavelength_nm: &[f64]) -> Result<(), Error> {
-        check("altitude_m", altitude_m, ALTITUDE_RANGE_M)?;
+    /// Whether the sums for these wavelengths are done ([`FogNumbers::prepare`]), or not needed.
+    #[must_use]
+    pub fn is_ready(&self, wavelength_nm: &[f64]) -> bool {
+        let beyond = self.beyond.lock().unwrap_or_else(PoisonError::into_inner);
+        let ready = |nm: &f64| !is_beyond(*nm) || beyond.contains_key(&nm.to_bits());
+        self.rendered.is_none() || wavelength_nm.iter().all(ready)
+    }
+
+    /// Does the sums for wavelengths that are new, on the current rayon pool; the other functions do so too.
+    ///
+    /// # Errors
+    /// If a wavelength is out of range.
+    pub fn prepare(&self, wavelength_nm: &[f64]) -> Result<(), Error> {
         check("wavelength_nm", wavelength_nm, water::WAVELENGTH_RANGE_NM)?;
         let Some(fog) = &self.rendered else { return Ok(()) };
         let mut beyond = self.beyond.lock().unwrap_or_else(PoisonError::into_inner);
@@ -179,6 +189,11 @@ impl FogNumbers {
             beyond.extend(some.iter().map(|nm| (nm.to_bits(), Arc::clone(&fog))));
         }
         Ok(())
+    }
+
+    fn check(&self, altitude_m: &[f64], wavelength_nm: &[f64]) -> Result<(), Error> {
+        check("altitude_m", altitude_m, ALTITUDE_RANGE_M)?;
+        self.prepare(wavelength_nm)
     }
 
     /// The fog at a wavelength that was checked; none in clear air.

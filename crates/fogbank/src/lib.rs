@@ -74,7 +74,7 @@ pub use progress::{Event, Progress, Silent};
 pub use reference::Reference;
 pub use replay::{Replayed, replay};
 pub use resources::Resources;
-pub use selection::{Selection, Shard};
+pub use selection::{Selection, Shard, one_frame};
 pub use shared::share_sets;
 pub use sources::load_model;
 pub use sweep::{SweepOptions, most_paths, output_set, path_count, sweep};

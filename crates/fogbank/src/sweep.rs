@@ -314,6 +314,8 @@ fn files<'a>(
         camera: rendered.camera_picture.as_ref(),
         clear: rendered.clear.as_ref(),
         exposure: rendered.exposure as f32,
+        instances: &rendered.instances,
+        view: camera_record::view(spec, &rendered.camera),
         seconds: 0.0,
         attributes,
     }

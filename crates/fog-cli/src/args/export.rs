@@ -5,12 +5,10 @@ use fog_export::Format;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Formats:
-  coco         images/ and annotations/instances.json: boxes, masks (RLE), keypoints
-
 Examples:
   fogbank export out/town --format coco --out town-coco
   fogbank export out/town --format coco --out town-cars --classes car,truck,bus
+  fogbank export out/town --format kitti --out town-kitti      a rig of two cameras becomes image_2 and image_3
 
 Nothing is rendered again: a format is made of the outputs that the data set has, and says which ones it lacks. Frames that are
 not done are left out and counted. What a format cannot hold is counted and told, here and in X/export.json. The folder X appears
@@ -21,7 +19,7 @@ Exit codes: 0 every frame of the plan is exported, 1 some are missing or failed,
 
 /// What to export, how and where.
 #[derive(Debug, ClapArgs)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = help())]
 pub(crate) struct ExportArgs {
     /// Folder of the data set.
     pub(crate) dir: PathBuf,
@@ -40,6 +38,16 @@ pub(crate) struct ExportArgs {
     /// Print errors only.
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+/// The formats, and how to use the command.
+fn help() -> String {
+    let mut text = "Formats, and the outputs that they are made of:\n".to_owned();
+    for format in Format::ALL {
+        let (about, needs) = (format.about(), format.needs().join(", "));
+        text.push_str(&format!("  {:<12} {about} [{needs}]\n", format.name()));
+    }
+    text + "\n" + EXAMPLES
 }
 
 fn format(name: &str) -> Result<Format, String> {

@@ -76,7 +76,7 @@ fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 11 + 6 + 6 + 12);
+    assert_eq!(s.channels.len(), 11 + 6 + 6 + 12 + 4);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
@@ -99,6 +99,13 @@ fn every_channel_comes_back_bit_by_bit() {
     same(&s, "albedo.G", |i| f.truth.surface.albedo[i][1]);
     same(&s, "flow.Y", |i| f.truth.surface.flow[i][1]);
     same(&s, "flow_valid.Y", |i| f.truth.surface.flow_valid[i]);
+    let instance = |i: usize| f.truth.surface.instance[i];
+    same(&s, "CryptoObject00.G", |i| f32::from(instance(i).min(1)));
+    let id = |i: usize| s.channels["CryptoObject00.R"].values[i].to_bits();
+    let ids: BTreeMap<u16, u32> = (0..33 * 17).map(|i| (instance(i), id(i))).collect();
+    same(&s, "CryptoObject00.R", |i| f32::from_bits(ids[&instance(i)]));
+    assert_eq!((ids.len(), ids[&0]), (3, 0));
+    assert!(ids[&1] != ids[&301] && ids[&1] != 0 && ids[&301] != 0);
     let labels = |kind: &str| image::open(dir.path().join(format!("f0.{kind}.png"))).expect("a PNG");
     let (semantic, instance) = (labels("semantic"), labels("instance"));
     assert_eq!(semantic.color(), image::ColorType::L8);
@@ -125,6 +132,10 @@ fn one_wavelength_has_one_channel() {
     assert_eq!(
         names,
         [
+            "CryptoObject00.A",
+            "CryptoObject00.B",
+            "CryptoObject00.G",
+            "CryptoObject00.R",
             "N.X",
             "N.Y",
             "N.Z",
@@ -288,4 +299,7 @@ fn classes_belong_to_the_data_set_and_layers_that_are_asked_for_must_be_there() 
     f.truth.surface.normal.clear();
     let e = store(&set, "f0", &f).expect_err("not there").to_string();
     assert!(e.contains("f0.gt.exr") && e.contains("was not given"), "{e}");
+    f.truth.surface.instance[0] = 302;
+    let e = store(&set, "f0", &f).expect_err("one name too few").to_string();
+    assert!(e.contains("f0.gt.exr") && e.contains("has no name"), "{e}");
 }
