@@ -94,6 +94,7 @@ fn prepare(
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_classes(selected.iter().map(|&i| &frames[i]), resources, progress);
+    warn_of_rolling_shutters(selected.iter().map(|&i| &frames[i]), resources, progress);
     refuse_if_nothing_works(selected.iter().map(|&i| &frames[i]), resources)?;
 
     // 2. The data set: new, or the same one begun earlier.
@@ -222,6 +223,25 @@ fn warn_of_unknown_classes<'f>(
             for text in labels::complaints(frame, resources) {
                 progress.event(Event::Warning(text));
             }
+        }
+    }
+}
+
+/// Says once for each scene that things which move stand still while the rows of an image are read.
+fn warn_of_rolling_shutters<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut seen = BTreeSet::new();
+    for frame in frames.filter(|frame| frame.readout_end.is_some()) {
+        let Some(scene) = &frame.scene else { continue };
+        let moves = |scene: &_| resources.scene(Some(scene)).is_ok_and(|loaded| loaded.animation.is_some());
+        if seen.insert(scene.source.to_string()) && moves(scene) {
+            progress.event(Event::Warning(format!(
+                "sensor.shutter: the camera moves while the rows are read, but what moves in {} stands still as it is at the first row",
+                scene.source
+            )));
         }
     }
 }
