@@ -7,12 +7,16 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Value, json};
 
+use crate::cryptomatte::cryptomatte;
 use crate::exr_file::{Picture, encode};
 use crate::names::Kind;
 use crate::{Attribute, Error, FrameFiles, OutputSet, Result, layers};
 
 /// Why a file cannot be made.
 const NOT_GIVEN: &str = "the frame's outputs ask for it, but it was not given";
+
+/// Why there is no layer of instances.
+const UNNAMED: &str = "an instance of its mask has no name";
 
 /// Bytes of one hashed file; `path` is only for messages.
 pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, path: &Path) -> Result<Vec<u8>> {
@@ -26,11 +30,18 @@ pub(crate) fn hashed(kind: Kind, files: &FrameFiles<'_>, outputs: OutputSet, pat
         }
         Kind::Hdr => radiance(files, layers::radiance(files.frame, outputs), path),
         Kind::Truth => {
-            let channels = layers::truth(files.frame, outputs);
+            let mut channels = layers::truth(files.frame, outputs);
+            let mut foreign = Vec::new();
+            if outputs.instance {
+                let layer = cryptomatte(&files.frame.truth.surface.instance, files.instances);
+                let layer = layer.ok_or(UNNAMED).map_err(Error::picture("encode", path))?;
+                channels.extend(layer.channels);
+                foreign = layer.attributes;
+            }
             if channels.iter().any(|(_, values)| values.is_empty()) {
                 return Err(Error::picture("encode", path)(NOT_GIVEN));
             }
-            encode(picture(files, channels, false), path)
+            encode(Picture { foreign, ..picture(files, channels, false) }, path)
         }
         Kind::Semantic => {
             let frame = files.frame;
@@ -116,5 +127,6 @@ fn picture(files: &FrameFiles<'_>, channels: Vec<(String, Vec<f32>)>, radiance: 
         attributes.insert("wavelength_nm".to_owned(), Attribute::Number(wavelength_nm));
     }
     let colour = radiance && files.frame.channels == Channels::Rgb;
-    Picture { width: files.frame.width, height: files.frame.height, channels, attributes, colour }
+    let (width, height) = (files.frame.width, files.frame.height);
+    Picture { width, height, channels, attributes, foreign: Vec::new(), view: files.view, colour }
 }

@@ -28,7 +28,7 @@ pub fn estimate_bytes(width: u32, height: u32, outputs: OutputSet, groups: usize
         (outputs.position, 6.0),
         (outputs.albedo, 0.3),
         (outputs.semantic, 0.03),
-        (outputs.instance, 0.03),
+        (outputs.instance, 0.3),
         (outputs.flow, 5.0),
     ];
     let wanted: f64 = per_pixel.iter().filter(|(wanted, _)| *wanted).map(|(_, bytes)| bytes).sum();

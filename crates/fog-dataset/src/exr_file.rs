@@ -11,7 +11,7 @@ use exr::meta::header::LayerAttributes;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, WritableImage};
 
 use crate::exr_header::sort_attributes;
-use crate::{Error, Result};
+use crate::{Error, Result, View};
 
 /// Custom attributes are stored under this prefix, so that none can be taken for a standard one.
 const ATTRIBUTE_PREFIX: &str = "fogbank.";
@@ -38,8 +38,6 @@ pub enum Attribute {
     Text(String),
     /// A number.
     Number(f32),
-    /// A 4×4 matrix, row by row.
-    Matrix([f32; 16]),
 }
 
 /// One channel of a picture.
@@ -59,8 +57,12 @@ pub(crate) struct Picture {
     pub(crate) height: u32,
     /// Channel name and row-major values; names must be ASCII and differ.
     pub(crate) channels: Vec<(String, Vec<f32>)>,
-    /// Names without the prefix.
+    /// Our own attributes; names without the prefix.
     pub(crate) attributes: BTreeMap<String, Attribute>,
+    /// Attributes of other conventions, by whole names.
+    pub(crate) foreign: Vec<(String, String)>,
+    /// OpenEXR's attributes of the view.
+    pub(crate) view: View,
     /// Whether R, G, B are Rec. 709 primaries with D65.
     pub(crate) colour: bool,
 }
@@ -73,12 +75,19 @@ pub(crate) fn encode(picture: Picture, path: &Path) -> Result<Vec<u8>> {
         .into_iter()
         .map(|(name, values)| AnyChannel::new(text(&name), FlatSamples::F32(values)))
         .collect();
-    let attributes = picture
+    let own = picture
         .attributes
         .into_iter()
-        .map(|(name, value)| (text(&format!("{ATTRIBUTE_PREFIX}{name}")), attribute_value(value)))
-        .collect();
-    let own = LayerAttributes { other: attributes, ..LayerAttributes::default() };
+        .map(|(name, value)| (text(&format!("{ATTRIBUTE_PREFIX}{name}")), attribute_value(value)));
+    let foreign =
+        picture.foreign.into_iter().map(|(name, value)| (text(&name), AttributeValue::Text(text(&value))));
+    let own = LayerAttributes {
+        world_to_camera: picture.view.world_to_camera,
+        world_to_normalized_device: picture.view.world_to_ndc,
+        white_luminance: picture.view.white_luminance_cd_m2.filter(|_| picture.colour),
+        other: own.chain(foreign).collect(),
+        ..LayerAttributes::default()
+    };
     let mut image = Image::from_layer(Layer::new(size, own, ENCODING, AnyChannels::sort(channels)));
     image.attributes.chromaticities = picture.colour.then_some(REC_709);
     let mut bytes = Cursor::new(Vec::new());
@@ -97,7 +106,6 @@ fn attribute_value(value: Attribute) -> AttributeValue {
     match value {
         Attribute::Text(s) => AttributeValue::Text(text(&s)),
         Attribute::Number(x) => AttributeValue::F32(x),
-        Attribute::Matrix(m) => AttributeValue::Matrix4x4(m),
     }
 }
 

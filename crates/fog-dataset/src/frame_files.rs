@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fog_core::colour::Rgb;
-use fog_film::Frame;
+use fog_film::{Frame, srgb8};
 use serde_json::Value;
 
 use crate::Attribute;
@@ -30,9 +30,27 @@ pub struct FrameFiles<'a> {
     pub clear: Option<&'a ClearPicture>,
     /// Seconds that the frame took; go to `<id>.timing.json` only.
     pub seconds: f64,
-    /// Custom attributes for the EXR files (camera pose, intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
+    /// Names of the things by number, that of instance i of the mask at i − 1; may be empty where no mask is asked for.
+    pub instances: &'a [String],
+    /// The view, for attributes of the EXR files that OpenEXR defines.
+    pub view: View,
+    /// Custom attributes for the EXR files (intrinsics, …), stored as `fogbank.<name>`; `frame_id`, `exposure`
     /// and `wavelength_nm` are set here and win.
     pub attributes: &'a BTreeMap<String, Attribute>,
+}
+
+/// A frame's view in OpenEXR's conventions (openexr.com, "Standard Attributes": the spaces of RenderMan). Points are row
+/// vectors on the left of the matrices, which are stored row by row: the last four numbers of `world_to_camera` are the
+/// world's origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// `worldToCamera`: x right, y up, z forward, in metres; left-handed.
+    pub world_to_camera: Option<[f32; 16]>,
+    /// `worldToNDC`: after division by the fourth coordinate x and y from (0, 0), the upper left corner of the image, to (1, 1),
+    /// the lower right one; only of lenses without distortion.
+    pub world_to_ndc: Option<[f32; 16]>,
+    /// `whiteLuminance`: luminance of R = G = B = 1; goes to files of colours only.
+    pub white_luminance_cd_m2: Option<f32>,
 }
 
 /// What a frame's sensor gives.
@@ -61,4 +79,12 @@ pub struct DenoisedPicture {
     pub rgb: Vec<Rgb>,
     /// How it was made, a JSON object for `<id>.denoised.json`.
     pub details: Value,
+}
+
+impl DenoisedPicture {
+    /// Its sRGB picture at an exposure, three bytes per pixel.
+    #[must_use]
+    pub fn to_srgb8(&self, exposure: f32) -> Vec<u8> {
+        self.rgb.iter().flat_map(|rgb| rgb.map(|v| srgb8(v * exposure))).collect()
+    }
 }

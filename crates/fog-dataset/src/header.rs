@@ -11,8 +11,9 @@ use crate::{Error, FileEntry, Result};
 
 /// Value of [`Header::format`].
 pub const FORMAT: &str = "fogbank-dataset";
-/// Value of [`Header::format_version`] that this crate reads and writes.
-pub const FORMAT_VERSION: u32 = 1;
+/// Value of [`Header::format_version`] that this crate writes. 2: Cryptomatte layer of `instance`, `worldToCamera` and
+/// `worldToNDC` in place of `fogbank.world_from_camera`, `whiteLuminance`. Version 1 is read, too.
+pub const FORMAT_VERSION: u32 = 2;
 
 /// Content of `dataset.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,10 +60,10 @@ impl Header {
             Err(e) => return Err(Error::io("read", &path)(e)),
         };
         let header: Self = serde_json::from_slice(&text).map_err(Error::damaged(&path))?;
-        if header.format != FORMAT || header.format_version != FORMAT_VERSION {
+        if header.format != FORMAT || !(1..=FORMAT_VERSION).contains(&header.format_version) {
             let found = format!("format `{}` version {}", header.format, header.format_version);
             let reason =
-                format!("it says {found}, but this program knows `{FORMAT}` version {FORMAT_VERSION}");
+                format!("it says {found}, but this program knows `{FORMAT}` up to version {FORMAT_VERSION}");
             return Err(Error::damaged(&path)(reason));
         }
         Ok(Some(header))

@@ -13,7 +13,7 @@
 //! | `<id>.raw.png` | 16-bit grey: the numbers of the sensor's pixels (`raw`) |
 //! | `<id>.clear.exr`, `.clear.rgb.png` | the same view in clear air at the same exposure (`pair`): `R`, `G`, `B`, and its sRGB picture |
 //! | `<id>.hdr.exr` | f32 linear `R`, `G`, `B` (`hdr`), `direct.*`, `airlight.*`, `standard_error.Y`, `samples.Y`, `group.NAME.*`; mono frames `Y` |
-//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y`; `N.X/Y/Z` (`normals`), `P.X/Y/Z` (`position`), `albedo.R/G/B`, `flow.X/Y` and `flow_valid.Y` where asked for |
+//! | `<id>.gt.exr` | f32 `depth.Z`, `distance.Z` (metres, +inf for sky), `transmittance.R/G/B` (mono `.Y`), `tau.Y`; `N.X/Y/Z` (`normals`), `P.X/Y/Z` (`position`), `albedo.R/G/B`, `flow.X/Y` and `flow_valid.Y` where asked for; `CryptoObject00.R/G/B/A` (`instance`) |
 //! | `<id>.semantic.png`, `<id>.instance.png` | class (8 bits) and instance (16 bits) of each pixel |
 //! | `<id>.objects.json` | records of the things in the picture |
 //! | `<id>.json` | the frame's record |
@@ -30,6 +30,7 @@
 //! file systems without locks.
 
 mod atomic;
+mod cryptomatte;
 mod data_set;
 mod denoised;
 mod encode;
@@ -48,6 +49,7 @@ mod opening;
 mod outputs;
 mod picture_file;
 mod plan;
+mod rasters;
 mod read;
 mod reader;
 mod verify;
@@ -56,7 +58,7 @@ pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
 pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
-pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles};
+pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles, View};
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use merge::{Merged, merge};
@@ -65,6 +67,7 @@ pub use opening::Opening;
 pub use outputs::OutputSet;
 pub use picture_file::{read_picture, write_png};
 pub use plan::PlanFrame;
+pub use rasters::{Raster, Values, file_of_raster, raster_names};
 pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan, read_record};
 pub use reader::{Mask, Reader};
 pub use verify::{Problem, Report, verify};

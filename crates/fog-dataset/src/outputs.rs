@@ -119,7 +119,7 @@ impl OutputSet {
     #[must_use]
     pub fn wants_truth_file(self) -> bool {
         let fog = self.transmittance || self.tau;
-        let surface = self.normals || self.position || self.albedo || self.flow;
+        let surface = self.normals || self.position || self.albedo || self.flow || self.instance;
         self.depth || self.distance || fog || surface
     }
 

@@ -83,6 +83,11 @@ impl Folder {
         Ok(Self { out: out.to_path_buf(), dir, made: RefCell::default(), finished: false, _lock: lock })
     }
 
+    /// The name that the folder will have.
+    pub(crate) fn name(&self) -> String {
+        self.out.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
     /// Where a file is while the folder is being filled; folders above it are made. `name` has `/` between its parts.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ pub struct Options {
     /// Only things of these classes, by name; all if empty. Formats of label masks keep every class.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub classes: Vec<String>,
-    /// Replace another export in the folder.
+    /// Export again, whatever export is in the folder.
     #[serde(skip)]
     pub force: bool,
 }

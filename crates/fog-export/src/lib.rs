@@ -16,6 +16,8 @@ mod format;
 mod frame;
 mod job;
 mod kitti;
+mod lard;
+mod nuscenes;
 mod png;
 mod run;
 mod summary;

@@ -1,9 +1,9 @@
 //! What records and EXR files say about a frame's camera.
 
 use crate::frame::pose;
-use fog_core::Mat4;
 use fog_core::lens::{Intrinsics, Lens};
-use fog_dataset::Attribute;
+use fog_core::{Mat4, Vec3A};
+use fog_dataset::{Attribute, View};
 use fog_plan::{FrameSpec, PoseSpec};
 use fog_scene::camera::{Camera, Pose};
 use serde_json::{Value, json};
@@ -109,10 +109,40 @@ pub(crate) fn write(spec: &FrameSpec, camera: &Camera, record: &mut Value) {
     }
 }
 
+/// The view for attributes of the EXR files that OpenEXR defines; with a rolling shutter that of the upper edge.
+pub(crate) fn view(spec: &FrameSpec, camera: &Camera) -> View {
+    let pose = &camera.pose;
+    let from = pose.position.as_dvec3();
+    // What a world point's coordinate along an axis of the camera is, as coefficients of x, y, z, 1.
+    let along = |axis: Vec3A| -> [f64; 4] {
+        let axis = axis.as_dvec3();
+        [axis.x, axis.y, axis.z, -axis.dot(from)]
+    };
+    let [right, down, forward] = [pose.right, pose.down, pose.forward].map(along);
+    const ONE: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+    // Points are rows, so what gives one of their coordinates is a column. No zero is negative.
+    let stored = |columns: [[f64; 4]; 4]| std::array::from_fn(|i| columns[i % 4][i / 4] as f32 + 0.0);
+    let world_to_ndc = match (&camera.lens, camera.lens.intrinsics()) {
+        (Lens::Pinhole(_), Some(Intrinsics { fx_px, fy_px, cx_px, cy_px })) => {
+            let share = |focal: f64, axis: [f64; 4], centre: f64, pixels: u32| -> [f64; 4] {
+                std::array::from_fn(|i| (focal * axis[i] + (centre + 0.5) * forward[i]) / f64::from(pixels))
+            };
+            let (x, y) = (share(fx_px, right, cx_px, camera.width), share(fy_px, down, cy_px, camera.height));
+            // The third is of no account; with this one the matrix has an inverse.
+            Some(stored([x, y, ONE, forward]))
+        }
+        _ => None,
+    };
+    View {
+        world_to_camera: Some(stored([right, down.map(|v| -v), forward, ONE])),
+        world_to_ndc,
+        white_luminance_cd_m2: Some(spec.lighting.luminance_of_one_cd_m2 as f32),
+    }
+}
+
 /// Custom attributes of the EXR files.
 pub(crate) fn attributes(camera: &Camera) -> Vec<(&'static str, Attribute)> {
-    let pose = camera.pose.world_from_camera().transpose().to_cols_array();
-    let mut attributes = vec![("world_from_camera", Attribute::Matrix(pose))];
+    let mut attributes = Vec::new();
     if let Some(Intrinsics { fx_px, fy_px, cx_px, cy_px }) = camera.lens.intrinsics() {
         for (name, value) in [("fx_px", fx_px), ("fy_px", fy_px), ("cx_px", cx_px), ("cy_px", cy_px)] {
             attributes.push((name, Attribute::Number(value as f32)));

@@ -41,6 +41,8 @@ pub struct Rendered {
     pub camera_picture: Option<CameraPicture>,
     /// The view in clear air, if the frame asks for it.
     pub clear: Option<ClearPicture>,
+    /// Names of the things by number, that of instance i at i − 1, if the frame asks for labels.
+    pub instances: Vec<String>,
 }
 
 /// Camera of a frame.
@@ -185,8 +187,10 @@ pub(crate) fn finish(
     let denoised = denoiser
         .map(|denoiser| denoise::denoised(scene, &camera, &frame, (denoiser, observer)))
         .transpose()?;
+    let instances = labels.iter().flat_map(|labels| labels.instances());
+    let instances = instances.map(|instance| instance.name.clone()).collect();
     let objects = labels.filter(|_| spec.outputs.contains(&Output::Objects));
     let objects = objects
         .map(|labels| objects_json(spec, scene, &camera, &labels, &frame, clear.as_ref().map(|c| &c.frame)));
-    Ok(Rendered { frame, record, camera, exposure, denoised, objects, camera_picture, clear })
+    Ok(Rendered { frame, record, camera, exposure, denoised, objects, camera_picture, clear, instances })
 }

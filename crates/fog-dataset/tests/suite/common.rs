@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fog_dataset::{
     Attribute, CameraPicture, ClearPicture, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening,
-    OutputSet, PlanFrame, Result,
+    OutputSet, PlanFrame, Result, View,
 };
 use fog_film::{Channels, Frame, GroupLayer, PixelFilm, SurfaceTruth, Truth};
 use serde_json::{Map, Value, json};
@@ -109,10 +109,19 @@ pub(crate) fn store(set: &DataSet, id: &str, frame: &Frame) -> Result<()> {
 
 /// As [`store`], with a time.
 pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) -> Result<()> {
+    with_files(id, frame, seconds, |files| set.write_frame(files))
+}
+
+/// What is stored of a frame.
+pub(crate) fn with_files<T>(
+    id: &str,
+    frame: &Frame,
+    seconds: f64,
+    then: impl FnOnce(&FrameFiles<'_>) -> T,
+) -> T {
     let attributes: BTreeMap<String, Attribute> = [
         ("camera_altitude_m".to_owned(), Attribute::Number(2.0)),
         ("scene".to_owned(), Attribute::Text("stra\u{df}e.glb".to_owned())),
-        ("world_from_camera".to_owned(), Attribute::Matrix(std::array::from_fn(|i| i as f32))),
     ]
     .into();
     let rgb = frame.direct.iter().map(|rgb| rgb.map(|v| 0.5 * v)).collect();
@@ -122,7 +131,7 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
     let srgb8 = if frame.check().is_ok() { frame.to_srgb8(1.25) } else { Vec::new() };
     let camera = CameraPicture { raw, srgb8: srgb8.clone() };
     let clear = ClearPicture { frame: frame.clone(), srgb8 };
-    set.write_frame(&FrameFiles {
+    then(&FrameFiles {
         id,
         camera: Some(&camera),
         clear: Some(&clear),
@@ -131,9 +140,20 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
         frame,
         record: &json!({ "id": id, "samples": frame.samples[0] }),
         exposure: 1.25,
+        instances: &instances(),
+        view: View {
+            world_to_camera: Some(std::array::from_fn(|i| i as f32)),
+            world_to_ndc: None,
+            white_luminance_cd_m2: Some(100.0),
+        },
         seconds,
         attributes: &attributes,
     })
+}
+
+/// Names of the things in a test frame.
+pub(crate) fn instances() -> Vec<String> {
+    (1..=301).map(|i| format!("thing {i}")).collect()
 }
 
 /// All files of a folder by name, but the timings.

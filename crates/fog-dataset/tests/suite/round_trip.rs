@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use fog_dataset::{
-    DataSet, OutputSet, StoredFrame, read_exr_channels, read_frame, read_header, read_plan, verify,
+    DataSet, OutputSet, Raster, Reader, StoredFrame, Values, file_of_raster, raster_names, read_exr_channels,
+    read_frame, read_header, read_plan, verify,
 };
 use fog_film::{Channels, Frame};
 use serde_json::json;
 
-use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed};
+use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed, with_files};
 
 const MONO: Channels = Channels::Mono { wavelength_nm: 550.0 };
 
@@ -26,11 +27,56 @@ fn stored(set: &DataSet, f: &Frame) -> StoredFrame {
 }
 
 #[test]
+fn rasters_are_alike_stored_and_not() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    for (folder, channels, components) in [("rgb", Channels::Rgb, 3), ("mono", MONO, 1)] {
+        let (set, f) = (open(&dir.path().join(folder), 1), frame(5, 4, channels, 4));
+        store(&set, "f0", &f).expect("written");
+        let reader = Reader::open(set.dir()).expect("a data set");
+        let mut planned = set.plan()[0].clone();
+        planned.spec = json!({"lighting": {"groups": [{"name": "lamps"}, {"name": "rest"}]}});
+        let unstored = with_files("f0", &f, 1.5, |files| Raster::of_frame(files, planned.outputs));
+        let names = raster_names(&planned);
+        assert_eq!(names.len(), unstored.len());
+        for name in [
+            "image",
+            "hdr",
+            "depth",
+            "tau",
+            "normals",
+            "flow",
+            "flow_valid",
+            "instance",
+            "semantic",
+            "group.lamps",
+        ] {
+            assert!(names.iter().any(|known| known == name), "{name}");
+        }
+        for name in names {
+            let kind = file_of_raster(&name).expect("a file");
+            let path = reader.path(&planned, kind);
+            let raster = if path.extension().is_some_and(|e| e == "exr") {
+                Raster::take(&name, &mut reader.channels(&planned, kind).expect("read"))
+                    .expect("its channels")
+            } else {
+                reader.raster(&planned, kind).expect("read")
+            };
+            let want = unstored.get(&name).unwrap_or_else(|| panic!("{name} is not there"));
+            assert_eq!(format!("{raster:?}"), format!("{want:?}"), "{name}");
+        }
+        assert_eq!(unstored["hdr"].components, components);
+        let Values::F32(hdr) = &unstored["hdr"].values else { panic!("radiance is f32") };
+        assert_eq!(hdr[7 * components..8 * components], f.image(7)[..components]);
+    }
+    assert_eq!((file_of_raster("objects"), file_of_raster("depht")), (None, None));
+}
+
+#[test]
 fn every_channel_comes_back_bit_by_bit() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let f = frame(33, 17, Channels::Rgb, 4);
     let s = stored(&open(dir.path(), 1), &f);
-    assert_eq!(s.channels.len(), 11 + 6 + 6 + 12);
+    assert_eq!(s.channels.len(), 11 + 6 + 6 + 12 + 4);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         same(&s, name, |i| f.image(i)[c]);
         same(&s, &format!("direct.{name}"), |i| f.direct[i][c]);
@@ -53,6 +99,13 @@ fn every_channel_comes_back_bit_by_bit() {
     same(&s, "albedo.G", |i| f.truth.surface.albedo[i][1]);
     same(&s, "flow.Y", |i| f.truth.surface.flow[i][1]);
     same(&s, "flow_valid.Y", |i| f.truth.surface.flow_valid[i]);
+    let instance = |i: usize| f.truth.surface.instance[i];
+    same(&s, "CryptoObject00.G", |i| f32::from(instance(i).min(1)));
+    let id = |i: usize| s.channels["CryptoObject00.R"].values[i].to_bits();
+    let ids: BTreeMap<u16, u32> = (0..33 * 17).map(|i| (instance(i), id(i))).collect();
+    same(&s, "CryptoObject00.R", |i| f32::from_bits(ids[&instance(i)]));
+    assert_eq!((ids.len(), ids[&0]), (3, 0));
+    assert!(ids[&1] != ids[&301] && ids[&1] != 0 && ids[&301] != 0);
     let labels = |kind: &str| image::open(dir.path().join(format!("f0.{kind}.png"))).expect("a PNG");
     let (semantic, instance) = (labels("semantic"), labels("instance"));
     assert_eq!(semantic.color(), image::ColorType::L8);
@@ -79,6 +132,10 @@ fn one_wavelength_has_one_channel() {
     assert_eq!(
         names,
         [
+            "CryptoObject00.A",
+            "CryptoObject00.B",
+            "CryptoObject00.G",
+            "CryptoObject00.R",
             "N.X",
             "N.Y",
             "N.Z",
@@ -242,4 +299,7 @@ fn classes_belong_to_the_data_set_and_layers_that_are_asked_for_must_be_there() 
     f.truth.surface.normal.clear();
     let e = store(&set, "f0", &f).expect_err("not there").to_string();
     assert!(e.contains("f0.gt.exr") && e.contains("was not given"), "{e}");
+    f.truth.surface.instance[0] = 302;
+    let e = store(&set, "f0", &f).expect_err("one name too few").to_string();
+    assert!(e.contains("f0.gt.exr") && e.contains("has no name"), "{e}");
 }
