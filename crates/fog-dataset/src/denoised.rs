@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::Path;
 
-use fog_film::srgb8;
 use serde_json::{Value, json};
 
 use crate::marker::{Check, FileEntry};
@@ -26,8 +25,7 @@ pub(crate) fn write(dir: &Path, files: &FrameFiles<'_>) -> Result<()> {
         let content = match kind {
             Kind::Denoised => encode::radiance(files, layers::denoised(files.frame, &denoised.rgb), &path)?,
             _ => {
-                let bytes: Vec<u8> =
-                    denoised.rgb.iter().flat_map(|rgb| rgb.map(|v| srgb8(v * files.exposure))).collect();
+                let bytes = denoised.to_srgb8(files.exposure);
                 encode::png(files.frame.width, files.frame.height, &bytes, &path)?
             }
         };

@@ -11,7 +11,7 @@ use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
 use crate::{CODE_DIGEST, camera_record, changed_files, clear_air, frame, labels, sensor};
 use fog_dataset::{
-    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame,
+    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame, Raster,
 };
 use fog_plan::{FrameSpec, Plan};
 use serde_json::json;
@@ -312,12 +312,20 @@ pub(crate) fn store(
     rendered: &Rendered,
     seconds: f64,
 ) -> Result<(), Error> {
-    let mut attributes: BTreeMap<_, _> = camera_record::attributes(&rendered.camera)
-        .into_iter()
-        .map(|(name, value)| (name.to_owned(), value))
-        .collect();
+    let attributes = camera_record::attributes(&rendered.camera);
+    let mut attributes: BTreeMap<_, _> =
+        attributes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
     attributes.insert("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone()));
-    data_set.write_frame(&FrameFiles {
+    data_set.write_frame(&FrameFiles { seconds, ..files(spec, rendered, &attributes) })?;
+    Ok(())
+}
+
+fn files<'a>(
+    spec: &'a FrameSpec,
+    rendered: &'a Rendered,
+    attributes: &'a BTreeMap<String, Attribute>,
+) -> FrameFiles<'a> {
+    FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,
         record: &rendered.record,
@@ -328,8 +336,15 @@ pub(crate) fn store(
         exposure: rendered.exposure as f32,
         instances: &rendered.instances,
         view: camera_record::view(spec, &rendered.camera),
-        seconds,
-        attributes: &attributes,
-    })?;
-    Ok(())
+        seconds: 0.0,
+        attributes,
+    }
+}
+
+impl Rendered {
+    /// The pictures that the frame's outputs ask for, as a data set with it would give them back.
+    #[must_use]
+    pub fn rasters(&self, spec: &FrameSpec) -> BTreeMap<String, Raster> {
+        Raster::of_frame(&files(spec, self, &BTreeMap::new()), output_set(spec))
+    }
 }
