@@ -10,7 +10,7 @@ layer() {
     fog-optics | fog-scene | fog-film | fog-sensor | fog-plan | fog-denoise | fog-worlds) echo 1 ;;
     fog-tracer | fog-dataset | fog-figures) echo 2 ;;
     fogbank | fog-export) echo 3 ;;
-    fog-cli) echo 4 ;;
+    fog-cli | fogbank-py) echo 4 ;;
     *) echo "layers: $1 has no layer; add it to tests/layers.sh and ARCHITECTURE.md" >&2; exit 1 ;;
   esac
 }
@@ -46,6 +46,8 @@ only memmap2 "fogbank"
 only object_store "fog-dataset"
 only libloading "fog-denoise"
 only gltf "fog-scene"
+only pyo3 "fogbank-py"
+only numpy "fogbank-py"
 
 [ "$bad" = 0 ] && echo "layers: ok"
 exit "$bad"

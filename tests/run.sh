@@ -8,6 +8,14 @@ DENY=0.20.2
 
 step() { printf '\n== %s (%ss)\n' "$1" "$SECONDS"; }
 
+tools="${CARGO_TARGET_DIR:-target}/tools"
+mkdir -p "$tools"
+
+step "Python packages, which arrive while Rust compiles"
+[ -d "$tools/venv" ] || python3 -m venv "$tools/venv"
+"$tools/venv/bin/python" -m pip install --quiet --disable-pip-version-check -e "tools[test]" >"$tools/pip.log" 2>&1 &
+packages=$!
+
 step "rustfmt"
 cargo fmt --all --check
 
@@ -21,7 +29,6 @@ step "layers"
 bash tests/layers.sh
 
 step "licences, sources, duplicates"
-tools="${CARGO_TARGET_DIR:-target}/tools"
 deny="$(command -v cargo-deny || true)"
 [ -n "$deny" ] || deny="$tools/bin/cargo-deny"
 # Without optimisation it is built in a third of the time, and reads two small files all the same.
@@ -29,7 +36,6 @@ deny="$(command -v cargo-deny || true)"
 "$deny" --log-level error check licenses bans sources
 
 step "Open Image Denoise, for the tests of the output \`denoised\`"
-[ -d "$tools/venv" ] || python3 -m venv "$tools/venv"
 [ -d "$tools/oidn/pyoidn" ] || "$tools/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps \
   --target "$tools/oidn" pyoidn==2.5.1.0
 FOGBANK_OIDN="$(realpath "$tools/oidn/pyoidn/oidn/lib")"
@@ -42,6 +48,7 @@ step "a job array on Slurm"
 bash tests/slurm.sh "${CARGO_TARGET_DIR:-target}/release/fogbank"
 
 step "tools in Python"
+wait "$packages" || { cat "$tools/pip.log"; exit 1; }
 bash tools/test.sh
 
 step "all passed"

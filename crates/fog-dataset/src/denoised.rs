@@ -1,6 +1,5 @@
 //! Files of a denoised picture: outside of the frame's marker, for their bytes are not the frame's alone.
 
-use fog_film::srgb8;
 use serde_json::{Value, json};
 
 use crate::marker::{Check, FileEntry};
@@ -24,8 +23,7 @@ pub(crate) fn files(store: &Store, files: &FrameFiles<'_>) -> Result<Vec<(String
         let content = match kind {
             Kind::Denoised => encode::radiance(files, layers::denoised(files.frame, &denoised.rgb), &path)?,
             _ => {
-                let bytes: Vec<u8> =
-                    denoised.rgb.iter().flat_map(|rgb| rgb.map(|v| srgb8(v * files.exposure))).collect();
+                let bytes = denoised.to_srgb8(files.exposure);
                 encode::png(files.frame.width, files.frame.height, &bytes, &path)?
             }
         };

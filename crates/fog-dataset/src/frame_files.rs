@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fog_core::colour::Rgb;
-use fog_film::Frame;
+use fog_film::{Frame, srgb8};
 use serde_json::Value;
 
 use crate::Attribute;
@@ -79,4 +79,12 @@ pub struct DenoisedPicture {
     pub rgb: Vec<Rgb>,
     /// How it was made, a JSON object for `<id>.denoised.json`.
     pub details: Value,
+}
+
+impl DenoisedPicture {
+    /// Its sRGB picture at an exposure, three bytes per pixel.
+    #[must_use]
+    pub fn to_srgb8(&self, exposure: f32) -> Vec<u8> {
+        self.rgb.iter().flat_map(|rgb| rgb.map(|v| srgb8(v * exposure))).collect()
+    }
 }

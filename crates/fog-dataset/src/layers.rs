@@ -9,7 +9,7 @@ use crate::OutputSet;
 pub(crate) const STANDARD_ERROR: &str = "standard_error.Y";
 
 /// Channel of the number of samples of each pixel.
-const SAMPLES: &str = "samples.Y";
+pub(crate) const SAMPLES: &str = "samples.Y";
 
 /// Channels of `<id>.hdr.exr` that the outputs ask for.
 pub(crate) fn radiance(frame: &Frame, outputs: OutputSet) -> Vec<(String, Vec<f32>)> {

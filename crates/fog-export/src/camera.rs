@@ -65,6 +65,11 @@ impl Camera {
         }
         Ok(camera)
     }
+
+    /// Position in the world, m.
+    pub(crate) fn position(&self) -> DVec3 {
+        self.world_from_camera.w_axis.truncate()
+    }
 }
 
 /// Four rows of four numbers.

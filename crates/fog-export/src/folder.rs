@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::collections::HashSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{BufWriter, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde_json::Value;
 
@@ -83,12 +83,21 @@ impl Folder {
         Ok(Self { out: out.to_path_buf(), dir, made: RefCell::default(), finished: false, _lock: lock })
     }
 
+    /// The name that the folder will have.
+    pub(crate) fn name(&self) -> String {
+        self.out.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
     /// Where a file is while the folder is being filled; folders above it are made. `name` has `/` between its parts.
     ///
     /// # Errors
     /// [`Error::Io`].
     pub(crate) fn path(&self, name: &str) -> Result<PathBuf> {
         let path = self.dir.join(name);
+        // Names of cameras are in it.
+        if Path::new(name).components().any(|part| !matches!(part, Component::Normal(_))) {
+            return Err(Error::io("create", &path)(ErrorKind::InvalidFilename.into()));
+        }
         if let Some(parent) = path.parent()
             && !self.made.borrow().contains(parent)
         {
@@ -210,4 +219,23 @@ fn sync(dir: &Path) -> Result<()> {
         File::open(dir).and_then(|d| d.sync_all()).map_err(Error::io("sync", dir))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_written_outside_and_a_given_up_folder_goes() {
+        let base = tempfile::tempdir().expect("temporary folder");
+        let out = base.path().join("x");
+        let folder = Folder::begin(&out).expect("begin");
+        folder.write("a/b.txt", "b").expect("write");
+        for name in ["../c.txt", "/c.txt", "a/../../c.txt"] {
+            assert!(matches!(folder.write(name, "c"), Err(Error::Io { .. })), "{name}");
+        }
+        assert!(matches!(Folder::begin(&out), Err(Error::Busy { .. })));
+        drop(folder);
+        assert_eq!(fs::read_dir(base.path()).expect("list").count(), 0);
+    }
 }

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use crate::job::{Job, Writer};
-use crate::{Error, Result, cityscapes, coco, kitti};
+use crate::lard::{self, Edition, Lard};
+use crate::{Error, Result, cityscapes, coco, huggingface, kitti, mcap_file, nuscenes, webdataset};
 
 /// A format of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,18 @@ pub enum Format {
     Kitti,
     /// Cityscapes: pictures, labels as pictures and polygons, cameras, disparity of stereo rigs.
     Cityscapes,
+    /// LARD's first edition: pictures of runways, and a CSV file of their corners.
+    LardV1,
+    /// LARD's second edition.
+    LardV2,
+    /// nuScenes: pictures, and the 13 tables of its schema.
+    Nuscenes,
+    /// WebDataset: tar files of the data set's own files.
+    WebDataset,
+    /// Hugging Face `datasets`: Parquet files with the pictures in them, and a card.
+    HuggingFace,
+    /// MCAP with Foxglove's messages: pictures, depth, cameras and boxes by time.
+    Mcap,
 }
 
 /// What is to be said of a format.
@@ -25,7 +38,17 @@ struct Entry {
 
 impl Format {
     /// All of them.
-    pub const ALL: &'static [Self] = &[Self::Coco, Self::Kitti, Self::Cityscapes];
+    pub const ALL: &'static [Self] = &[
+        Self::Coco,
+        Self::Kitti,
+        Self::Cityscapes,
+        Self::LardV1,
+        Self::LardV2,
+        Self::Nuscenes,
+        Self::WebDataset,
+        Self::HuggingFace,
+        Self::Mcap,
+    ];
 
     fn entry(self) -> Entry {
         match self {
@@ -43,6 +66,36 @@ impl Format {
                 name: "cityscapes",
                 about: "leftImg8bit/, gtFine/, camera/; of stereo rigs rightImg8bit/, disparity/",
                 needs: cityscapes::NEEDS,
+            },
+            Self::LardV1 => Entry {
+                name: "lard-v1",
+                about: "images/ and a CSV file: corners of runways, distances and angles of the approach",
+                needs: lard::NEEDS,
+            },
+            Self::LardV2 => Entry {
+                name: "lard-v2",
+                about: "the same in the columns of 2025: several runways, cut ones too",
+                needs: lard::NEEDS,
+            },
+            Self::Nuscenes => Entry {
+                name: "nuscenes",
+                about: "samples/ and v1.0-fogbank/ with the 13 tables: scenes, poses, boxes, instances",
+                needs: nuscenes::NEEDS,
+            },
+            Self::WebDataset => Entry {
+                name: "webdataset",
+                about: "NAME-000000.tar, …: every file of each frame, under one key (--shard-size)",
+                needs: webdataset::NEEDS,
+            },
+            Self::HuggingFace => Entry {
+                name: "huggingface",
+                about: "data/train-*.parquet with pictures, axes, EXR files (--shard-size); README.md",
+                needs: huggingface::NEEDS,
+            },
+            Self::Mcap => Entry {
+                name: "mcap",
+                about: "NAME-000000.mcap, …: Foxglove's messages of pictures, depth, cameras, boxes",
+                needs: mcap_file::NEEDS,
             },
         }
     }
@@ -83,6 +136,12 @@ impl Format {
             Self::Coco => Box::new(coco::Coco::begin(job)?),
             Self::Kitti => Box::new(kitti::Kitti::begin(job)?),
             Self::Cityscapes => Box::new(cityscapes::Cityscapes::begin(job)?),
+            Self::LardV1 => Box::new(Lard::begin(job, Edition::V1)?),
+            Self::LardV2 => Box::new(Lard::begin(job, Edition::V2)?),
+            Self::Nuscenes => Box::new(nuscenes::Nuscenes::begin(job)?),
+            Self::WebDataset => Box::new(webdataset::WebDataset::begin(job)),
+            Self::HuggingFace => Box::new(huggingface::HuggingFace::begin(job)?),
+            Self::Mcap => Box::new(mcap_file::Mcap::begin(job)),
         })
     }
 }

@@ -46,6 +46,7 @@ pub fn export(
         "format": "fogbank-export",
         "format_version": 1,
         "export": format.name(),
+        "program": env!("CARGO_PKG_VERSION"),
         "options": options,
         "data_set": {
             "name": header.name,
@@ -55,15 +56,14 @@ pub fn export(
         },
         "frames": summary.exported,
     });
-    if let Some(found) = folder::manifest(out)? {
-        if is_part_of(&manifest, &found) {
-            summary.was_there = true;
-            summary.losses = serde_json::from_value(found["losses"].clone()).unwrap_or_default();
-            return Ok(summary);
-        }
-        if !options.force {
+    let found = folder::manifest(out)?;
+    if let Some(found) = found.filter(|_| !options.force) {
+        if !is_part_of(&manifest, &found) {
             return Err(Error::OtherExport { dir: out.to_path_buf(), found: describe(&found) });
         }
+        summary.was_there = true;
+        summary.losses = serde_json::from_value(found["losses"].clone()).unwrap_or_default();
+        return Ok(summary);
     }
     let losses = Losses::default();
     let folder = Folder::begin(out)?;

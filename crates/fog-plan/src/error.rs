@@ -30,9 +30,10 @@ impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.origin)?;
         if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
+            write!(f, "{:.300}: ", self.path)?;
         }
-        write!(f, "{}{}", self.message, self.origin.chain())
+        // What is quoted may be as long as a hostile file.
+        write!(f, "{:.2000}{}", self.message, self.origin.chain())
     }
 }
 

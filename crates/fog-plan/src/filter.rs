@@ -70,12 +70,20 @@ impl Filter {
     /// A path that no frame has.
     pub fn matches(&self, frames: &[FrameSpec]) -> Result<Vec<bool>, PlanError> {
         let documents: Vec<Value> = frames.iter().map(|frame| json!(frame)).collect();
-        let mut matching = vec![true; frames.len()];
+        self.matches_json(&documents)
+    }
+
+    /// As [`Filter::matches`], of frames as `fogbank plan --json` prints them.
+    ///
+    /// # Errors
+    /// A path that no frame has.
+    pub fn matches_json(&self, documents: &[Value]) -> Result<Vec<bool>, PlanError> {
+        let mut matching = vec![true; documents.len()];
         for condition in &self.conditions {
             let found: Vec<Option<&Value>> =
                 documents.iter().map(|document| lookup(document, &condition.path)).collect();
             if found.iter().all(Option::is_none) {
-                return Err(self.unknown(&condition.path, &documents));
+                return Err(self.unknown(&condition.path, documents));
             }
             matching.iter_mut().zip(found).for_each(|(m, value)| *m &= condition.is_met(value));
         }

@@ -55,6 +55,15 @@ pub struct SensorModelSpec {
     pub pixel_um: f64,
     /// Greatest quantum efficiency of green pixels, above 0 up to 1; not used by curves that are quantum efficiencies.
     pub quantum_efficiency: f64,
+    /// Photo response nonuniformity: standard deviation of the pixels' responses over their mean, 0 to 0.5. Left out where it is 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub prnu_1288: f64,
+    /// Dark signal nonuniformity: standard deviation of the pixels' dark signals in electrons, 0 to 10 000. Left out where it is 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub dsnu_1288_e: f64,
+    /// Seed of the fixed pattern; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pattern_seed: Option<u64>,
     /// Whether electrons are counted at random.
     pub photon_noise: bool,
     /// What the pixels see of each wavelength.
@@ -127,4 +136,8 @@ impl SensorModelSpec {
             _ => None,
         }
     }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }

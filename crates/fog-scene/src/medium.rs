@@ -59,6 +59,12 @@ impl Medium {
         self.patches.as_ref()
     }
 
+    /// The phase function by itself.
+    #[must_use]
+    pub fn phase(&self) -> PhaseView<'_> {
+        self.phase.view(&self.nodes)
+    }
+
     /// Optical depths in f64 of a ray (unit direction) up to `t_max` (m) at some wavelengths: what ground truth is made of.
     #[must_use]
     pub fn optical_depths_at<const N: usize>(
@@ -85,7 +91,7 @@ impl Medium {
     /// Resolves the tables for a loop over paths.
     #[must_use]
     pub fn view(&self) -> MediumView<'_> {
-        let phase = self.phase.view(&self.nodes);
+        let phase = self.phase();
         let grey = phase.is_grey() && self.profile.wavelengths_nm().len() == 1;
         MediumView { profile: &self.profile, patchy: self.patchy(), phase, grey }
     }

@@ -66,7 +66,7 @@ impl Curves {
     /// # Errors
     /// The first line that is wrong.
     pub fn parse(text: &str) -> Result<Self, CurvesError> {
-        let mut lines = text.lines();
+        let mut lines = text.trim_start_matches('\u{feff}').lines();
         let header = lines.next().unwrap_or_default().trim();
         let efficiencies = match header {
             EFFICIENCIES => true,
@@ -84,7 +84,8 @@ impl Curves {
             }
             let number = |text: &str, least: f64, most: f64| {
                 let value = text.parse::<f64>().ok().filter(|v| (least..=most).contains(v));
-                value.ok_or_else(|| wrong(format!("`{text}` is no number from {least} to {most}")))
+                let shown = || text.chars().take(60).collect::<String>();
+                value.ok_or_else(|| wrong(format!("`{}` is no number from {least} to {most}", shown())))
             };
             let nm = number(nm, 100.0, 10_000.0)?;
             if rows.last().is_some_and(|(before, _)| *before >= nm) {
@@ -189,5 +190,31 @@ mod tests {
         assert_eq!(response("wavelength_nm,red,green,blue\n400,1,0,1\n700,1,0,1\n"), Err(CurvesError::Blind));
         assert_eq!(response("wavelength_nm,red,green,blue\n900,1,1,1\n990,1,1,1\n"), Err(CurvesError::Blind));
         assert_eq!(response("wavelength_nm,red,green,blue\n400,1,1,1\n700,1,1,1\n"), Err(CurvesError::Alike));
+    }
+
+    #[test]
+    fn damaged_files_are_refused_or_read() {
+        let good =
+            "\u{feff}wavelength_nm,red,green,blue\r\n400,0,0.1,0.9\r\n550,0.2,1,0.1\r\n700,0.8,0.1,0\r\n";
+        assert_eq!(Curves::parse(good).expect("with a byte order mark and CRLF").rows.len(), 3);
+        let parts = [
+            "NaN", "inf", "-1e999", "1e308", ",", ",,,", "\n", "\u{0}", "\u{feff}", "९", "", "400", "\"", "é",
+        ];
+        let mut rng = fog_core::random::PathRng::new(17, 0, 0);
+        let mut below = |n: usize| (rng.uniform_f64() * n as f64) as usize;
+        for _ in 0..3000 {
+            let mut text: Vec<char> = good.chars().collect();
+            for _ in 0..=below(3) {
+                let at = below(text.len());
+                let end = (at + below(9)).min(text.len());
+                text.splice(at..end, parts[below(parts.len())].chars());
+            }
+            // Whatever it is, it is read or refused, and shortly.
+            if let Err(error) = Curves::parse(&text.iter().collect::<String>()) {
+                assert!(error.to_string().chars().count() < 400, "{error}");
+            }
+        }
+        let long = format!("wavelength_nm,red,green,blue\n{},1,1,1", "9".repeat(1 << 20));
+        assert!(Curves::parse(&long).expect_err("no number").to_string().len() < 400);
     }
 }

@@ -44,6 +44,7 @@ pub fn develop(raw: &[u16], width: usize, height: usize, sensor: &Sensor, colour
 mod tests {
     use super::*;
     use crate::bayer::Bayer;
+    use crate::raw::FixedPattern;
 
     const QUIET: Sensor = Sensor {
         bayer: Bayer::Gbrg,
@@ -54,6 +55,7 @@ mod tests {
         dark_e: 0.0,
         read_noise_e: 0.0,
         photon_noise: false,
+        pattern: FixedPattern::NONE,
     };
 
     #[test]

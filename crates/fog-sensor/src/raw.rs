@@ -1,7 +1,8 @@
 //! Light on the pixels to numbers in a file: electrons, noise, the well's end, the converter.
 //!
 //! Linear model of EMVA Standard 1288, release 4.0 Linear (2021): a pixel counts μ = light + dark electrons with Poisson's
-//! variance, reading adds normal noise of variance σ_d², and the number is black level + K · electrons, rounded.
+//! variance, reading adds normal noise of variance σ_d², and the number is black level + K · electrons, rounded. Its
+//! nonuniformities are a fixed pattern: each pixel has a gain and an offset of its own, the same in every picture of a sensor.
 
 use crate::bayer::Bayer;
 use crate::noise::{normal, poisson};
@@ -10,6 +11,8 @@ use fog_core::random::{PathRng, mix64};
 
 /// Keeps the sensor's random numbers apart from those of paths.
 const STREAM: u64 = 0x73_65_6e_73_6f_72_21_21;
+/// And the fixed pattern apart from both.
+const PATTERN_STREAM: u64 = 0x70_61_74_74_65_72_6e_21;
 
 /// A sensor and its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +33,34 @@ pub struct Sensor {
     pub read_noise_e: f64,
     /// Whether electrons are counted at random.
     pub photon_noise: bool,
+    /// What tells its pixels apart.
+    pub pattern: FixedPattern,
+}
+
+/// The nonuniformity of a sensor's pixels: white, normally distributed over the pixels, the same in all pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedPattern {
+    /// Standard deviation of the pixels' responses to light over their mean, 0 or more: PRNU₁₂₈₈ as a share.
+    pub prnu: f64,
+    /// Standard deviation of the pixels' dark signals in electrons, 0 or more: DSNU₁₂₈₈.
+    pub dsnu_e: f64,
+    /// Which sensor it is.
+    pub seed: u64,
+}
+
+impl FixedPattern {
+    /// No pixel differs from another.
+    pub const NONE: Self = Self { prnu: 0.0, dsnu_e: 0.0, seed: 0 };
+
+    /// Factor on the light of a pixel, 0 or more, and electrons that reading adds to it.
+    fn of(&self, pixel: u64) -> (f64, f64) {
+        if self.prnu == 0.0 && self.dsnu_e == 0.0 {
+            return (1.0, 0.0);
+        }
+        let mut rng = PathRng::new(mix64(self.seed ^ PATTERN_STREAM), pixel, 0);
+        let gain = (1.0 + self.prnu * normal(&mut rng)).max(0.0);
+        (gain, self.dsnu_e * normal(&mut rng))
+    }
 }
 
 impl Sensor {
@@ -61,10 +92,11 @@ impl Sensor {
         assert_eq!(light.len(), width * height, "light for every pixel");
         let seed = mix64(seed ^ STREAM);
         let pixel = |(i, rgb): (usize, &Rgb)| {
-            let light = f64::from(rgb[self.bayer.channel(i % width, i / width)]);
+            let (gain, offset_e) = self.pattern.of(i as u64);
+            let light = gain * f64::from(rgb[self.bayer.channel(i % width, i / width)]);
             let mut rng = PathRng::new(seed, i as u64, 0);
             let electrons = self.electrons(light, &mut rng);
-            self.number(electrons + self.read_noise_e * normal(&mut rng))
+            self.number(electrons + offset_e + self.read_noise_e * normal(&mut rng))
         };
         light.iter().enumerate().map(pixel).collect()
     }
@@ -97,6 +129,7 @@ mod tests {
         dark_e: 5.0,
         read_noise_e: 4.0,
         photon_noise: true,
+        pattern: FixedPattern::NONE,
     };
 
     fn flat(sensor: &Sensor, light: f32, seed: u64) -> (f64, f64) {
@@ -124,6 +157,43 @@ mod tests {
         let read = (dark_variance - 1.0 / 12.0) / (k * k) - SENSOR.dark_e;
         assert!((read.sqrt() / 4.0 - 1.0).abs() < 0.04, "{}", read.sqrt());
         assert!((dark_mean - 64.0 - k * 5.0).abs() < 4.5 * (dark_variance / 40_000.0).sqrt(), "{dark_mean}");
+    }
+
+    /// EMVA 1288, release 4.0: spatial standard deviations of pictures averaged over time, dark and half full.
+    #[test]
+    fn nonuniformities_are_those_of_the_standard() {
+        let pattern = FixedPattern { prnu: 0.02, dsnu_e: 6.0, seed: 11 };
+        let (side, pictures) = (160, 64);
+        let n = side * side;
+        let mean = |sensor: &Sensor, light: f32| {
+            let mut sums = vec![0.0; n];
+            for seed in 0..pictures {
+                let raw = sensor.expose(&vec![[light; 3]; n], side, side, 100 + seed);
+                sums.iter_mut().zip(raw).for_each(|(sum, v)| *sum += f64::from(v) / pictures as f64);
+            }
+            sums
+        };
+        let moments = |v: &[f64]| {
+            let mean = v.iter().sum::<f64>() / n as f64;
+            (mean, v.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n as f64 - 1.0))
+        };
+        let sensor = Sensor { pattern, ..SENSOR };
+        let (dark, half) = (mean(&sensor, 0.0), mean(&sensor, 0.5));
+        let (plain_dark, plain_half) = (mean(&SENSOR, 0.0), mean(&SENSOR, 0.5));
+        // What is left of the noise in time is as without the pattern.
+        let (dark_variance, half_variance) =
+            (moments(&dark).1 - moments(&plain_dark).1, moments(&half).1 - moments(&plain_half).1);
+        let dsnu = dark_variance.sqrt() / sensor.numbers_per_electron();
+        let prnu = (half_variance - dark_variance).sqrt() / (moments(&half).0 - moments(&dark).0);
+        // A standard deviation over n pixels is known to 1/√(2n), 0.44 %.
+        assert!((dsnu / 6.0 - 1.0).abs() < 0.025, "{dsnu}");
+        assert!((prnu / 0.02 - 1.0).abs() < 0.025, "{prnu}");
+        // Of the sensor and not of the picture.
+        let still = Sensor { photon_noise: false, read_noise_e: 0.0, ..sensor };
+        let light = vec![[0.4; 3]; 64];
+        assert_eq!(still.expose(&light, 8, 8, 1), still.expose(&light, 8, 8, 2));
+        let other = Sensor { pattern: FixedPattern { seed: 12, ..pattern }, ..still };
+        assert_ne!(still.expose(&light, 8, 8, 1), other.expose(&light, 8, 8, 1));
     }
 
     #[test]

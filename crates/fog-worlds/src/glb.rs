@@ -165,6 +165,12 @@ impl Glb {
         self.place(node, class, instance, place, extras);
     }
 
+    /// A node with a mesh that is a part of another node's instance.
+    pub(crate) fn part(&mut self, name: &str, class: &str, instance: &str, shape: Shape, place: Place) {
+        let node = json!({"name": name, "mesh": shape.0});
+        self.place(node, class, instance, place, Map::new());
+    }
+
     /// A node with a lamp that belongs to `instance`; −Z of its place is the axis of a spot.
     pub(crate) fn lamp(&mut self, name: &str, class: &str, instance: &str, lamp: &Lamp, place: Place) {
         let light = lamp.json();

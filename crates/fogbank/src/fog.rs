@@ -9,8 +9,9 @@ use fog_core::patchiness::{Patchiness, PatchinessError, PatchyField};
 use fog_optics::droplets::DropletLayer;
 use fog_optics::layer::{self, FogLayer};
 use fog_optics::state::FogState;
+use fog_optics::table::{self, TableSettings};
 use fog_optics::{coefficient, layer_csv};
-use fog_plan::{Coefficient, FogModel, FogSpec, PatchinessSpec};
+use fog_plan::{Coefficient, FogModel, FogSpec, PatchinessSpec, Phase};
 use fog_scene::medium::Medium;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -64,6 +65,42 @@ impl Fog {
         let files = resources.files().hashes(spec.files());
         let datum_m = spec.datum_m;
         Ok(Some(Self { medium, layer, droplets, g, phase_record, coefficient, files, datum_m }))
+    }
+
+    /// Extinction and albedo by altitude over the datum.
+    #[must_use]
+    pub fn layer(&self) -> &FogLayer {
+        &self.layer
+    }
+
+    /// The same droplets at these wavelengths in nm (ascending, up to 64), without patches; what does not depend on the wavelength
+    /// stays. `spec`, whose sampling must be by table, and `resources` are those that the fog was made from.
+    ///
+    /// # Errors
+    /// If a wavelength is outside of the table of water.
+    pub(crate) fn at_wavelengths(
+        &self,
+        spec: &FogSpec,
+        resources: &Resources,
+        wavelengths_nm: &[f64],
+    ) -> Result<Self, Error> {
+        let mut fog = self.clone();
+        let mut phase = FogPhase::new(spec, &self.layer, resources)?.phase;
+        if self.droplets.is_some() || spec.phase == Phase::Mie {
+            let spectra = &resources.droplets(spec)?.spectra;
+            let visible = TableSettings::visible_of(spectra);
+            let settings = TableSettings { wavelengths_nm: wavelengths_nm.to_vec(), ..visible };
+            let table = table::build(spectra, &settings, &|_| ())?;
+            if let Some(droplets) = &mut fog.droplets {
+                fog.layer = layer_from(spec.coefficient, &table, &droplets.fog)?;
+                droplets.table = table.clone();
+            }
+            if spec.phase == Phase::Mie {
+                phase = fog_scene::phase::Phase::Table(table);
+            }
+        }
+        fog.medium = Medium::new(fog.layer.profile(self.datum_m)?, phase);
+        Ok(fog)
     }
 
     /// Phase function, scattering coefficient, and BLAKE3 hashes of the fog's files by their paths, as they are recorded.
@@ -165,17 +202,23 @@ fn from_droplets(model: &FogModel) -> bool {
     }
 }
 
+/// The layer of droplets.
+fn layer_from(coefficient: Coefficient, table: &OpticsTable, fog: &DropletLayer) -> Result<FogLayer, Error> {
+    Ok(match coefficient {
+        Coefficient::Integral => layer::droplets(table, fog),
+        Coefficient::Paper => coefficient::paper_layer(fog, table.view().wavelengths_nm)?,
+    })
+}
+
 /// The layer of a model, and its droplets where the model has them.
 fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, Option<Droplets>)>, Error> {
-    let layer_from = |table: &OpticsTable, fog: &DropletLayer| -> Result<FogLayer, Error> {
-        Ok(match spec.coefficient {
-            Coefficient::Integral => layer::droplets(table, fog),
-            Coefficient::Paper => coefficient::paper_layer(fog, table.view().wavelengths_nm)?,
-        })
-    };
     // What the paper's baselines take their extinction from if none is given (Sec. 6.1).
     let advection = |height_m: f64| -> Result<FogLayer, Error> {
-        layer_from(resources.mixture(spec)?, &DropletLayer::advection(resources.model(spec)?, height_m)?)
+        layer_from(
+            spec.coefficient,
+            resources.mixture(spec)?,
+            &DropletLayer::advection(resources.model(spec)?, height_m)?,
+        )
     };
     let layer = match &spec.model {
         FogModel::None => return Ok(None),
@@ -183,14 +226,20 @@ fn layer_of(spec: &FogSpec, resources: &Resources) -> Result<Option<(FogLayer, O
             let model = resources.model(spec)?;
             let fog = DropletLayer::advection(model, *height_m)?.scaled(*number_density_scale)?;
             let table = resources.mixture(spec)?.clone();
-            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum: None }))));
+            return Ok(Some((
+                layer_from(spec.coefficient, &table, &fog)?,
+                Some(Droplets { table, fog, spectrum: None }),
+            )));
         }
         FogModel::Droplets { height_m, droplets, number_density_1_m3, vertical } => {
             let spectrum = resources.spectrum(droplets)?;
             let number = *number_density_1_m3;
             let fog = droplets::fog(spec, spectrum, number, vertical, *height_m, resources)?;
             let (table, spectrum) = (resources.mixture(spec)?.clone(), Some(spectrum.clone()));
-            return Ok(Some((layer_from(&table, &fog)?, Some(Droplets { table, fog, spectrum }))));
+            return Ok(Some((
+                layer_from(spec.coefficient, &table, &fog)?,
+                Some(Droplets { table, fog, spectrum }),
+            )));
         }
         FogModel::Homogeneous { height_m, sigma_t_1_m, single_scattering_albedo } => {
             let sigma =

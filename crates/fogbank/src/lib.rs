@@ -18,6 +18,7 @@
 //! ```
 
 pub mod aviation;
+mod cache_dir;
 mod camera_record;
 mod changed_files;
 mod clear_air;
@@ -27,6 +28,7 @@ mod droplets;
 mod error;
 mod exposure;
 mod fog;
+mod fog_numbers;
 mod forecast;
 mod frame;
 mod labels;
@@ -53,6 +55,7 @@ mod tracker;
 mod work;
 mod workers;
 
+pub use cache_dir::default_cache_dir;
 pub use compare::{
     Compared, FramePair, LeftOut, MatchedFrames, Matching, Means, compare_pictures, match_frames,
 };
@@ -61,6 +64,7 @@ pub use fog::Fog;
 pub use fog_dataset as dataset;
 pub use fog_figures as figures;
 pub use fog_film as film;
+pub use fog_numbers::FogNumbers;
 pub use fog_optics as optics;
 pub use fog_plan as plan;
 pub use fog_tracer::render::Work;
@@ -70,7 +74,7 @@ pub use progress::{Event, Progress, Silent};
 pub use reference::Reference;
 pub use replay::{Replayed, replay};
 pub use resources::Resources;
-pub use selection::{Selection, Shard};
+pub use selection::{Selection, Shard, one_frame};
 pub use shared::share_sets;
 pub use sources::load_model;
 pub use sweep::{SweepOptions, most_paths, output_set, path_count, sweep};

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::frame::{camera, scene, settings};
 use crate::progress::Progress;
 use crate::resources::Resources;
-use crate::selection::find;
+use crate::selection::one_frame;
 use crate::shared::share_sets;
 use fog_core::spectrum::Spectrum;
 use fog_plan::{FrameSpec, Plan};
@@ -39,12 +39,7 @@ pub fn replay(
     resources: &mut Resources,
     progress: &dyn Progress,
 ) -> Result<Replayed, Error> {
-    let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
-    let index = match frame {
-        Some(frame) => find(frame, &frames)?,
-        None if frames.len() == 1 => 0,
-        None => return Err(Error::NotOneFrame { name: plan.name().to_owned(), count: frames.len() }),
-    };
+    let (frames, index) = one_frame(plan, frame)?;
     let spec = frames[index].clone();
     let ([x, y], [width, height]) = (pixel, [spec.sensor.width_px, spec.sensor.height_px]);
     if x >= width || y >= height {

@@ -77,7 +77,8 @@ impl Resources {
         }
     }
 
-    fn prepare_fog(&mut self, fog: &FogSpec, progress: &dyn Progress) {
+    /// The part of [`Resources::prepare`] that a fog needs.
+    pub(crate) fn prepare_fog(&mut self, fog: &FogSpec, progress: &dyn Progress) {
         self.sources.prepare(fog);
         // Why droplets could not be had is for the frame to say; some fogs need none.
         let Ok(droplets) = self.sources.droplets(fog) else { return };

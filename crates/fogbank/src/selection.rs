@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::shared::share_sets;
-use fog_plan::{Filter, FrameSpec};
+use fog_plan::{Filter, FrameSpec, Plan};
 
 /// Which of a plan's frames are to be rendered: those that meet every condition.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,11 +78,25 @@ impl Selection {
     }
 }
 
+/// The frames of a plan, and which of them is meant by an id, an index or the beginning of an id, or without one as the only frame.
+///
+/// # Errors
+/// A frame that is not there, or several where none is named.
+pub fn one_frame(plan: &Plan, wanted: Option<&str>) -> Result<(Vec<FrameSpec>, usize), Error> {
+    let frames = plan.frames().collect::<Result<Vec<_>, _>>()?;
+    let index = match wanted {
+        Some(wanted) => find(wanted, &frames)?,
+        None if frames.len() == 1 => 0,
+        None => return Err(Error::NotOneFrame { name: plan.name().to_owned(), count: frames.len() }),
+    };
+    Ok((frames, index))
+}
+
 /// The frame with this id, index or beginning of an id.
 ///
 /// # Errors
 /// If there is none, or several.
-pub(crate) fn find(wanted: &str, frames: &[FrameSpec]) -> Result<usize, Error> {
+fn find(wanted: &str, frames: &[FrameSpec]) -> Result<usize, Error> {
     let exact = frames.iter().position(|f| f.id == wanted);
     let by_index = || wanted.parse::<usize>().ok().filter(|&i| i < frames.len());
     // A number is an index and nothing else: a job array that counts too far must not render some frame twice.

@@ -14,7 +14,7 @@ use fog_sensor::curves::Curves;
 use fog_sensor::develop::{Colour, develop};
 use fog_sensor::exposure::SATURATION_LX_S;
 use fog_sensor::psf::{self, Kernel};
-use fog_sensor::raw::Sensor;
+use fog_sensor::raw::{FixedPattern, Sensor};
 use fog_sensor::vignetting::Vignetting;
 use fog_tracer::truth::TRANSMITTANCE_NM;
 use serde_json::{Value, json};
@@ -90,6 +90,11 @@ impl<'a> Chain<'a> {
             dark_e: model.dark_current_e_s * shutter_s,
             read_noise_e: model.read_noise_e,
             photon_noise: model.photon_noise,
+            pattern: FixedPattern {
+                prnu: model.prnu_1288,
+                dsnu_e: model.dsnu_1288_e,
+                seed: model.pattern_seed.unwrap_or(0),
+            },
         };
         let colour = observer.sensor().and_then(|r| colour(r, observer)).unwrap_or(Colour::SRGB);
         Some(Self { spec, model, camera, exposure, sensor, colour, base_iso })

@@ -12,7 +12,7 @@ use crate::workers::{self, Workers};
 use crate::{CODE_DIGEST, camera_record, changed_files, clear_air, frame, labels, sensor};
 use fog_dataset::{
     Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame, Planned,
-    Store,
+    Raster, Store,
 };
 use fog_plan::{FrameSpec, Plan};
 use serde_json::json;
@@ -95,6 +95,7 @@ fn prepare(
     warn_of_extrapolation(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_lights(selected.iter().map(|&i| &frames[i]), resources, progress);
     warn_of_unknown_classes(selected.iter().map(|&i| &frames[i]), resources, progress);
+    warn_of_rolling_shutters(selected.iter().map(|&i| &frames[i]), resources, progress);
     refuse_if_nothing_works(selected.iter().map(|&i| &frames[i]), resources)?;
 
     // 2. The data set: new, or the same one begun earlier.
@@ -230,6 +231,25 @@ fn warn_of_unknown_classes<'f>(
     }
 }
 
+/// Says once for each scene that things which move stand still while the rows of an image are read.
+fn warn_of_rolling_shutters<'f>(
+    frames: impl Iterator<Item = &'f FrameSpec>,
+    resources: &Resources,
+    progress: &dyn Progress,
+) {
+    let mut seen = BTreeSet::new();
+    for frame in frames.filter(|frame| frame.readout_end.is_some()) {
+        let Some(scene) = &frame.scene else { continue };
+        let moves = |scene: &_| resources.scene(Some(scene)).is_ok_and(|loaded| loaded.animation.is_some());
+        if seen.insert(scene.source.to_string()) && moves(scene) {
+            progress.event(Event::Warning(format!(
+                "sensor.shutter: the camera moves while the rows are read, but what moves in {} stands still as it is at the first row",
+                scene.source
+            )));
+        }
+    }
+}
+
 /// Number of paths that a frame takes; the least number where sampling goes by noise.
 #[must_use]
 pub fn path_count(spec: &FrameSpec) -> u64 {
@@ -304,12 +324,20 @@ pub(crate) fn store(
     rendered: &Rendered,
     seconds: f64,
 ) -> Result<(), Error> {
-    let mut attributes: BTreeMap<_, _> = camera_record::attributes(&rendered.camera)
-        .into_iter()
-        .map(|(name, value)| (name.to_owned(), value))
-        .collect();
+    let attributes = camera_record::attributes(&rendered.camera);
+    let mut attributes: BTreeMap<_, _> =
+        attributes.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
     attributes.insert("pair_id".to_owned(), Attribute::Text(spec.pair_id.clone()));
-    data_set.write_frame(&FrameFiles {
+    data_set.write_frame(&FrameFiles { seconds, ..files(spec, rendered, &attributes) })?;
+    Ok(())
+}
+
+fn files<'a>(
+    spec: &'a FrameSpec,
+    rendered: &'a Rendered,
+    attributes: &'a BTreeMap<String, Attribute>,
+) -> FrameFiles<'a> {
+    FrameFiles {
         id: &spec.id,
         frame: &rendered.frame,
         record: &rendered.record,
@@ -320,8 +348,15 @@ pub(crate) fn store(
         exposure: rendered.exposure as f32,
         instances: &rendered.instances,
         view: camera_record::view(spec, &rendered.camera),
-        seconds,
-        attributes: &attributes,
-    })?;
-    Ok(())
+        seconds: 0.0,
+        attributes,
+    }
+}
+
+impl Rendered {
+    /// The pictures that the frame's outputs ask for, as a data set with it would give them back.
+    #[must_use]
+    pub fn rasters(&self, spec: &FrameSpec) -> BTreeMap<String, Raster> {
+        Raster::of_frame(&files(spec, self, &BTreeMap::new()), output_set(spec))
+    }
 }

@@ -87,24 +87,8 @@ pub(crate) fn table_cache(asked: Option<&Path>) -> Result<TableCache> {
     }
 }
 
-/// The folder asked for; in a checkout of Fogbank its `tables/cache`; else the user's cache folder.
+/// The folder asked for, or [`fogbank::default_cache_dir`].
 pub(crate) fn cache_dir(asked: Option<&Path>) -> Result<PathBuf> {
-    if let Some(dir) = asked {
-        return Ok(dir.to_owned());
-    }
-    if Path::new("tables/advection/arcata.yaml").is_file() {
-        return Ok(PathBuf::from("tables/cache"));
-    }
-    let from = |key: &str, below: &str| {
-        std::env::var_os(key).filter(|v| !v.is_empty()).map(|v| Path::new(&v).join(below))
-    };
-    let base = if cfg!(target_os = "windows") {
-        from("LOCALAPPDATA", "")
-    } else if cfg!(target_os = "macos") {
-        from("HOME", "Library/Caches")
-    } else {
-        from("XDG_CACHE_HOME", "").or_else(|| from("HOME", ".cache"))
-    };
-    let base = base.context("no cache folder is known on this machine: name one with --cache-dir DIR")?;
-    Ok(base.join("fogbank"))
+    let dir = asked.map(Path::to_owned).or_else(fogbank::default_cache_dir);
+    dir.context("no cache folder is known on this machine: name one with --cache-dir DIR")
 }

@@ -11,6 +11,7 @@ mod data_set;
 mod denoise;
 mod determinism;
 mod droplets;
+mod export;
 mod failures;
 mod figures;
 mod fit;

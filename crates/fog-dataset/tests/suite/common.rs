@@ -112,6 +112,16 @@ pub(crate) fn store(set: &DataSet, id: &str, frame: &Frame) -> Result<()> {
 
 /// As [`store`], with a time.
 pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) -> Result<()> {
+    with_files(id, frame, seconds, |files| set.write_frame(files))
+}
+
+/// What is stored of a frame.
+pub(crate) fn with_files<T>(
+    id: &str,
+    frame: &Frame,
+    seconds: f64,
+    then: impl FnOnce(&FrameFiles<'_>) -> T,
+) -> T {
     let attributes: BTreeMap<String, Attribute> = [
         ("camera_altitude_m".to_owned(), Attribute::Number(2.0)),
         ("scene".to_owned(), Attribute::Text("stra\u{df}e.glb".to_owned())),
@@ -124,7 +134,7 @@ pub(crate) fn store_timed(set: &DataSet, id: &str, frame: &Frame, seconds: f64) 
     let srgb8 = if frame.check().is_ok() { frame.to_srgb8(1.25) } else { Vec::new() };
     let camera = CameraPicture { raw, srgb8: srgb8.clone() };
     let clear = ClearPicture { frame: frame.clone(), srgb8 };
-    set.write_frame(&FrameFiles {
+    then(&FrameFiles {
         id,
         camera: Some(&camera),
         clear: Some(&clear),

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use fog_dataset::{
-    DataSet, OutputSet, StoredFrame, read_exr_channels, read_frame, read_header, read_plan, verify,
+    DataSet, OutputSet, Raster, Reader, StoredFrame, Values, file_of_raster, raster_names, read_exr_channels,
+    read_frame, read_header, read_plan, verify,
 };
 use fog_film::{Channels, Frame};
 use serde_json::json;
 
-use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed};
+use crate::common::{contents, frame, open, open_with, planned, read_json, store, store_timed, with_files};
 
 const MONO: Channels = Channels::Mono { wavelength_nm: 550.0 };
 
@@ -23,6 +24,51 @@ fn same(stored: &StoredFrame, name: &str, want: impl Fn(usize) -> f32) {
 fn stored(set: &DataSet, f: &Frame) -> StoredFrame {
     store(set, "f0", f).expect("written");
     read_frame(set.store().place(), "f0").expect("read")
+}
+
+#[test]
+fn rasters_are_alike_stored_and_not() {
+    let dir = tempfile::tempdir().expect("temporary folder");
+    for (folder, channels, components) in [("rgb", Channels::Rgb, 3), ("mono", MONO, 1)] {
+        let (set, f) = (open(&dir.path().join(folder), 1), frame(5, 4, channels, 4));
+        store(&set, "f0", &f).expect("written");
+        let reader = Reader::open(set.dir()).expect("a data set");
+        let mut planned = set.plan()[0].clone();
+        planned.spec = json!({"lighting": {"groups": [{"name": "lamps"}, {"name": "rest"}]}});
+        let unstored = with_files("f0", &f, 1.5, |files| Raster::of_frame(files, planned.outputs));
+        let names = raster_names(&planned);
+        assert_eq!(names.len(), unstored.len());
+        for name in [
+            "image",
+            "hdr",
+            "depth",
+            "tau",
+            "normals",
+            "flow",
+            "flow_valid",
+            "instance",
+            "semantic",
+            "group.lamps",
+        ] {
+            assert!(names.iter().any(|known| known == name), "{name}");
+        }
+        for name in names {
+            let kind = file_of_raster(&name).expect("a file");
+            let path = reader.path(&planned, kind);
+            let raster = if path.extension().is_some_and(|e| e == "exr") {
+                Raster::take(&name, &mut reader.channels(&planned, kind).expect("read"))
+                    .expect("its channels")
+            } else {
+                reader.raster(&planned, kind).expect("read")
+            };
+            let want = unstored.get(&name).unwrap_or_else(|| panic!("{name} is not there"));
+            assert_eq!(format!("{raster:?}"), format!("{want:?}"), "{name}");
+        }
+        assert_eq!(unstored["hdr"].components, components);
+        let Values::F32(hdr) = &unstored["hdr"].values else { panic!("radiance is f32") };
+        assert_eq!(hdr[7 * components..8 * components], f.image(7)[..components]);
+    }
+    assert_eq!((file_of_raster("objects"), file_of_raster("depht")), (None, None));
 }
 
 #[test]

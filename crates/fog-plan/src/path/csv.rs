@@ -2,6 +2,8 @@
 
 use std::{
     collections::HashMap,
+    fs::File,
+    io::{self, Read as _},
     path::{Path as FilePath, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
@@ -18,6 +20,9 @@ pub(crate) struct CsvFiles(Arc<Mutex<HashMap<PathBuf, Read>>>);
 /// The path in a file, or why there is none.
 type Read = Result<Arc<Path>, String>;
 
+/// Largest file in bytes: a million poses of 200 characters take less.
+const MAX_BYTES: u64 = 256 << 20;
+
 const POSITION: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 const ANGLES: [&str; 3] = ["heading_deg", "pitch_deg", "roll_deg"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
@@ -30,29 +35,46 @@ impl CsvFiles {
     pub(crate) fn path(&self, file: &FilePath) -> Result<Arc<Path>, String> {
         let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let read = || {
-            let text = std::fs::read_to_string(file)
-                .map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+            let text = read_text(file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
             parse(&text).map(Arc::new).map_err(|message| format!("{}:{message}", file.display()))
         };
         files.entry(file.to_owned()).or_insert_with(read).clone()
     }
 }
 
+/// A file's text, if it is not too large.
+fn read_text(file: &FilePath) -> io::Result<String> {
+    let mut text = String::new();
+    let read = File::open(file)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+    if read as u64 > MAX_BYTES {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("larger than {} MiB", MAX_BYTES >> 20),
+        ));
+    }
+    Ok(text)
+}
+
+/// A cell as messages quote it.
+fn shortened(cell: &str) -> String {
+    cell.chars().take(60).collect()
+}
+
 /// Reads the text of a file. Messages begin with the line.
 fn parse(text: &str) -> Result<Path, String> {
+    let text = text.trim_start_matches('\u{feff}');
     let mut lines = text.lines().enumerate().filter(|(_, line)| {
         let line = line.trim();
         !(line.is_empty() || line.starts_with('#'))
     });
-    let cells = |line: &str| -> Vec<String> {
-        line.trim_start_matches('\u{feff}').split(',').map(|cell| cell.trim().to_owned()).collect()
-    };
+    let cells = |line: &str| -> Vec<String> { line.split(',').map(|cell| cell.trim().to_owned()).collect() };
     let Some((at, head)) = lines.next() else { return Err("1: no poses".into()) };
     let names = cells(head);
     let known = POSITION.iter().chain(&ANGLES).chain(&QUATERNION).copied().collect::<Vec<_>>();
     for (i, name) in names.iter().enumerate() {
         if !known.contains(&name.as_str()) {
-            return Err(format!("{}: column `{name}` is unknown; expected {}", at + 1, known.join(", ")));
+            let (name, known) = (shortened(name), known.join(", "));
+            return Err(format!("{}: column `{name}` is unknown; expected {known}", at + 1));
         }
         if names[..i].contains(name) {
             return Err(format!("{}: column `{name}` is there twice", at + 1));
@@ -78,8 +100,9 @@ fn parse(text: &str) -> Result<Path, String> {
         let mut numbers = Vec::with_capacity(columns.len());
         for (&i, name) in columns.iter().zip(&wanted) {
             let number = cells[i].parse::<f64>().ok().filter(|number| number.is_finite());
-            numbers
-                .push(number.ok_or_else(|| format!("{}: {name}: \"{}\" is not a number", at + 1, cells[i]))?);
+            let number = number
+                .ok_or_else(|| format!("{}: {name}: \"{}\" is not a number", at + 1, shortened(&cells[i])))?;
+            numbers.push(number);
         }
         let pose = pose(&numbers, by_quaternion).map_err(|message| format!("{}: {message}", at + 1))?;
         if let Some(last) = poses.last().filter(|last| last.time_s >= pose.time_s) {
@@ -99,6 +122,9 @@ fn parse(text: &str) -> Result<Path, String> {
 
 /// Time, position, and three angles or four components of a quaternion.
 fn pose(numbers: &[f64], by_quaternion: bool) -> Result<PathPose, String> {
+    if !ranges::TIME_S.contains(numbers[0]) {
+        return Err(format!("time_s: {}", ranges::TIME_S.message("time_s", numbers[0])));
+    }
     let position = [numbers[1], numbers[2], numbers[3]];
     for (name, value) in ["x_m", "y_m", "z_m"].iter().zip(position) {
         if !ranges::POSITION_M.contains(value) {

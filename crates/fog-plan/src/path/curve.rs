@@ -1,4 +1,4 @@
-//! A smooth curve through points, by arc length.
+//! A smooth curve through points, or straight lines between them, by arc length.
 //!
 //! Centripetal Catmull–Rom splines (Barry & Goldman 1988; Yuksel, Schaefer & Keyser 2011: of all parametrisations only the
 //! centripetal one has neither cusps nor loops within a segment). The ends are continued by mirrored points.
@@ -85,6 +85,16 @@ impl Curve {
                 Segment { points: [p[1], p[2]], tangents: [tangent(0, d0, d1), tangent(1, d1, d2)] }
             })
             .collect();
+        Self::of(segments)
+    }
+
+    /// Straight lines from each of at least two points to the next, of which no two in a row are equal.
+    pub(super) fn straight(points: &[[f64; 3]]) -> Self {
+        let segment = |p: &[[f64; 3]]| Segment { points: [p[0], p[1]], tangents: [minus(p[1], p[0]); 2] };
+        Self::of(points.windows(2).map(segment).collect())
+    }
+
+    fn of(segments: Vec<Segment>) -> Self {
         let mut lengths = vec![0.0];
         let mut sum = 0.0;
         for segment in &segments {

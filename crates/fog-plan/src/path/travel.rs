@@ -1,4 +1,4 @@
-//! Travelling along a smooth line at an even speed.
+//! Travelling along a line through points at an even speed.
 
 use fog_core::math;
 
@@ -8,6 +8,8 @@ use crate::rig::PoseSpec;
 /// How a line is travelled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Travel {
+    /// Whether straight lines join the points; else a smooth curve does.
+    pub(crate) straight: bool,
     /// Along the line, in m/s, above 0.
     pub(crate) speed_m_s: f64,
     /// Poses per second, above 0.
@@ -22,7 +24,7 @@ pub(crate) struct Travel {
 
 /// Poses from the first point to the last; at least two points, no two in a row equal. The heading is that of the line.
 pub(crate) fn travel(points: &[[f64; 3]], travel: &Travel) -> Vec<PathPose> {
-    let curve = Curve::through(points);
+    let curve = if travel.straight { Curve::straight(points) } else { Curve::through(points) };
     let step = travel.speed_m_s / travel.rate_hz;
     // Rounding must not lose the end.
     let steps = (curve.length() / step * (1.0 + 1e-9)).floor() as usize;
@@ -53,7 +55,7 @@ mod tests {
     use super::*;
 
     const TRAVEL: Travel =
-        Travel { speed_m_s: 5.0, rate_hz: 2.0, offset_m: 0.0, along: true, pitch_deg: 0.0 };
+        Travel { straight: false, speed_m_s: 5.0, rate_hz: 2.0, offset_m: 0.0, along: true, pitch_deg: 0.0 };
 
     #[test]
     fn time_speed_and_heading() {
@@ -72,5 +74,22 @@ mod tests {
         let climb = [[0.0, 0.0, 0.0], [10.0, 10.0, 0.0]];
         assert!((travel(&climb, &TRAVEL)[2].pose.pitch_deg - 45.0).abs() < 1e-9);
         assert_eq!(travel(&climb, &Travel { along: false, ..TRAVEL })[2].pose.pitch_deg, 0.0);
+    }
+
+    #[test]
+    fn straight_lines_turn_at_their_points() {
+        let corner = [[0.0, 0.0, 0.0], [0.0, 0.0, -10.0], [10.0, 0.0, -10.0]];
+        let poses = travel(&corner, &Travel { straight: true, ..TRAVEL });
+        let places: Vec<_> =
+            poses.iter().map(|p| p.pose.position_m.map(|c| (c * 1e9).round() / 1e9)).collect();
+        assert_eq!(places.len(), 9);
+        assert_eq!(
+            (places[3], places[4], places[5]),
+            ([0.0, 0.0, -7.5], [0.0, 0.0, -10.0], [2.5, 0.0, -10.0])
+        );
+        let headings: Vec<f64> = poses.iter().map(|p| p.pose.heading_deg).collect();
+        assert_eq!(headings, [0.0, 0.0, 0.0, 0.0, 90.0, 90.0, 90.0, 90.0, 90.0]);
+        // The curve through the same points leaves the lines.
+        assert!(travel(&corner, &TRAVEL).iter().any(|p| p.pose.position_m[0] < -0.1));
     }
 }

@@ -103,6 +103,9 @@ pub(crate) struct LightingMap {
     /// A preset that the other keys are laid over. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) preset: Option<Preset>,
+    /// A clear sky with the sun so high: short for the preset `clear` with these keys of `sun`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) clear: Option<ClearFile>,
     /// Light from every direction. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) environment: Option<EnvironmentFile>,
@@ -130,6 +133,21 @@ pub(crate) struct LightingMap {
     pub(crate) groups: Vec<LightGroupFile>,
 }
 
+/// The sun of a clear sky.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "Clear")]
+pub(crate) struct ClearFile {
+    /// Height of the sun above the horizon, in degrees.
+    #[schemars(range(min = ranges::ELEVATION_DEG.min, max = ranges::ELEVATION_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sun_elevation_deg: Option<f64>,
+    /// Direction towards the sun as a heading, in degrees.
+    #[schemars(range(min = ranges::HEADING_DEG.min, max = ranges::HEADING_DEG.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sun_azimuth_deg: Option<f64>,
+}
+
 /// A group of lights.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(default, deny_unknown_fields)]
@@ -153,6 +171,7 @@ impl Default for LightingMap {
     fn default() -> Self {
         Self {
             preset: None,
+            clear: None,
             environment: None,
             sky: None,
             sun: None,
@@ -258,7 +277,7 @@ impl<'de> Visitor<'de> for LightingVisitor {
         let presets = Preset::ALL.map(Preset::name).join(", ");
         write!(
             f,
-            "a preset ({presets}) or a map with keys preset, environment, sky, sun, moon, scene_emitters, \
+            "a preset ({presets}) or a map with keys preset, clear, environment, sky, sun, moon, scene_emitters, \
              luminance_of_one_cd_m2, groups"
         )
     }

@@ -38,8 +38,8 @@ pub(crate) use light::{
 pub(crate) use or_none::OrNone;
 pub(crate) use patchiness::PatchinessFile;
 pub(crate) use path::{
-    DispersionFile, DriveFile, EachFile, GlideSlopeFile, LardFile, LookFile, PathFile, PathPoseFile,
-    RigCameraFile, ShutterFile,
+    DispersionFile, DriveFile, EachFile, GlideSlopeFile, LardFile, LineFile, LookFile, PathFile,
+    PathPoseFile, RigCameraFile, ShutterFile,
 };
 pub(crate) use phase::{MeanCosineFile, PhaseFile};
 pub(crate) use runway::RunwayFile;

@@ -18,7 +18,7 @@ pub(crate) struct PathFile {
     /// A CSV file, relative to the current folder: columns time_s, x_m, y_m, z_m, and heading_deg, pitch_deg, roll_deg or the
     /// quaternion qw, qx, qy, qz from camera axes (x right, y down, z forward) to the world.
     pub(crate) csv: Option<String>,
-    /// World points x, y, z in metres; a smooth curve goes through them.
+    /// World points x, y, z in metres; a smooth curve goes through them, or straight lines (`line`).
     #[schemars(length(min = 2, max = 10_000))]
     pub(crate) waypoints: Option<Vec<[f64; 3]>>,
     /// With `waypoints`: speed along the curve in m/s.
@@ -29,6 +29,9 @@ pub(crate) struct PathFile {
     pub(crate) rate_hz: Option<f64>,
     /// With `waypoints`: `along` pitches with the curve, `level` does not. Absent: along.
     pub(crate) look: Option<LookFile>,
+    /// With `waypoints`: a smooth `curve` through them, or `straight` lines from each to the next. Absent: curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) line: Option<LineFile>,
     /// Along a road.
     pub(crate) drive: Option<DriveFile>,
     /// A landing approach.
@@ -70,14 +73,28 @@ pub(crate) enum LookFile {
     Level,
 }
 
+/// How points are joined.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Line")]
+pub(crate) enum LineFile {
+    /// By a smooth curve: centripetal Catmull–Rom.
+    Curve,
+    /// By straight lines; the heading changes at once where two meet.
+    Straight,
+}
+
 /// A drive along a line on the ground.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Drive", extend("required" = ["points", "speed_m_s", "rate_hz"]))]
 pub(crate) struct DriveFile {
-    /// World points x, z in metres; a smooth line goes through them.
+    /// World points x, z in metres; a smooth curve goes through them, or straight lines (`line`).
     #[schemars(length(min = 2, max = 10_000))]
     pub(crate) points: Option<Vec<[f64; 2]>>,
+    /// A smooth `curve` through the points, or `straight` lines from each to the next. Absent: curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) line: Option<LineFile>,
     /// Speed along the line in m/s.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::SPEED_M_S.max))]
     pub(crate) speed_m_s: Option<f64>,

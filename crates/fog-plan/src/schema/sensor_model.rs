@@ -87,6 +87,17 @@ pub(crate) struct SensorModelMap {
     /// Greatest quantum efficiency of green pixels: electrons per photon.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = ranges::QUANTUM_EFFICIENCY.max))]
     pub(crate) quantum_efficiency: Option<f64>,
+    /// Photo response nonuniformity, PRNU₁₂₈₈ as a share: standard deviation of the pixels' responses over their mean. Absent: 0.
+    #[schemars(range(min = ranges::PRNU.min, max = ranges::PRNU.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) prnu_1288: Option<f64>,
+    /// Dark signal nonuniformity, DSNU₁₂₈₈: standard deviation of the pixels' dark signals in electrons. Absent: 0.
+    #[schemars(range(min = ranges::DSNU_E.min, max = ranges::DSNU_E.max))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) dsnu_1288_e: Option<f64>,
+    /// Which sensor it is: seed of the fixed pattern of `prnu_1288` and `dsnu_1288_e`, the same for all frames. Absent: 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) pattern_seed: Option<u64>,
     /// Whether electrons are counted at random. Absent: true.
     pub(crate) photon_noise: Option<bool>,
     /// What the pixels see of each wavelength. Absent: cie.

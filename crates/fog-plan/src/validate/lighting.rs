@@ -20,6 +20,7 @@ impl Check<'_> {
         let LightingFile::Map(map) = lighting else { return None };
         let LightingMap {
             preset,
+            clear,
             environment,
             sky,
             sun,
@@ -28,6 +29,12 @@ impl Check<'_> {
             luminance_of_one_cd_m2,
             groups,
         } = &**map;
+        if clear.is_some() && preset.is_some() {
+            self.problem(
+                "lighting.clear",
+                "not beside lighting.preset, which is a whole lighting of its own",
+            );
+        }
         if sky.is_some() && environment.is_some() {
             self.problem("lighting.environment", "not with lighting.sky, which surrounds the scene too");
         }

@@ -9,7 +9,7 @@ use crate::{
     path::{MAX_POSES, Path, PathPose, Travel, travel},
     ranges::{self, Range},
     rig::PoseSpec,
-    schema::{DriveFile, LookFile, PathFile, PathPoseFile},
+    schema::{DriveFile, LineFile, LookFile, PathFile, PathPoseFile},
 };
 
 /// Height of a driver's eyes, or of a camera behind the windscreen, where a drive does not say.
@@ -39,6 +39,7 @@ impl Check<'_> {
                 ("speed_m_s", file.speed_m_s.is_some()),
                 ("rate_hz", file.rate_hz.is_some()),
                 ("look", file.look.is_some()),
+                ("line", file.line.is_some()),
             ];
             if let Some((key, _)) = stray.iter().find(|(_, is)| *is) {
                 self.problem(&format!("path.{key}"), format!("belongs to waypoints, not to {}", given[0]));
@@ -144,7 +145,9 @@ impl Check<'_> {
         let rate = self.needed("path.rate_hz", file.rate_hz, ranges::RATE_HZ, "poses per second");
         line?;
         let along = file.look != Some(LookFile::Level);
-        let how = Travel { speed_m_s: speed?, rate_hz: rate?, offset_m: 0.0, along, pitch_deg: 0.0 };
+        let straight = file.line == Some(LineFile::Straight);
+        let how =
+            Travel { straight, speed_m_s: speed?, rate_hz: rate?, offset_m: 0.0, along, pitch_deg: 0.0 };
         self.travelled("path.waypoints", points, &how)
     }
 
@@ -165,6 +168,7 @@ impl Check<'_> {
         let y = ground? + eye?;
         let points: Vec<[f64; 3]> = points?.iter().map(|[x, z]| [*x, y, *z]).collect();
         let how = Travel {
+            straight: file.line == Some(LineFile::Straight),
             speed_m_s: speed?,
             rate_hz: rate?,
             offset_m: offset_m?,

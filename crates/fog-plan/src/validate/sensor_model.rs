@@ -14,6 +14,8 @@ use crate::{
 const ADC_BITS: i64 = 12;
 /// Time that dark electrons gather in where nothing says it, in s.
 const SHUTTER_S: f64 = 0.01;
+/// The sensor that a pattern is of where nothing says it.
+const PATTERN_SEED: u64 = 1;
 
 /// What presets differ in.
 struct Preset {
@@ -80,10 +82,14 @@ impl Check<'_> {
         let pixel_um = self.part("pixel_um", map.pixel_um.unwrap_or(base.pixel_um), ranges::PIXEL_UM);
         let efficiency = map.quantum_efficiency.unwrap_or(base.quantum_efficiency);
         let efficiency = self.part("quantum_efficiency", efficiency, ranges::QUANTUM_EFFICIENCY);
+        let prnu = self.part("prnu_1288", map.prnu_1288.unwrap_or(0.0), ranges::PRNU);
+        let dsnu = self.part("dsnu_1288_e", map.dsnu_1288_e.unwrap_or(0.0), ranges::DSNU_E);
         let own = self.not_photographic(map, exposure);
         let (psf, vignetting, response) =
             (self.psf(map.psf), self.vignetting(map.vignetting), self.response(map));
         let (shutter_s, gain) = own?;
+        let (prnu_1288, dsnu_1288_e) = (prnu?, dsnu?);
+        let pattern_seed = self.pattern_seed(map, prnu_1288 > 0.0 || dsnu_1288_e > 0.0)?;
         Some(Some(SensorModelSpec {
             bayer: match map.bayer {
                 None | Some(BayerFile::Rggb) => BayerSpec::Rggb,
@@ -100,12 +106,26 @@ impl Check<'_> {
             gain,
             pixel_um: pixel_um?,
             quantum_efficiency: efficiency?,
+            prnu_1288,
+            dsnu_1288_e,
+            pattern_seed,
             photon_noise: map.photon_noise.unwrap_or(true),
             response: response?,
             psf: psf?,
             vignetting: vignetting?,
             noise_seed: map.noise_seed,
         }))
+    }
+
+    /// Seed of the fixed pattern, if there is one; the outer option is the check's success.
+    fn pattern_seed(&mut self, map: &SensorModelMap, has_pattern: bool) -> Option<Option<u64>> {
+        match map.pattern_seed {
+            Some(_) if !has_pattern => {
+                self.problem(&path("pattern_seed"), "there is no pattern: give prnu_1288 or dsnu_1288_e");
+                None
+            }
+            seed => Some(has_pattern.then_some(seed.unwrap_or(PATTERN_SEED))),
+        }
     }
 
     fn part(&mut self, key: &str, value: f64, range: Range) -> Option<f64> {

@@ -116,6 +116,20 @@ fn paths() {
 }
 
 #[test]
+fn lines() {
+    assert_eq!(
+        errors("fog: none\npath: {poses: [{position_m: [0, 0, 0]}], line: straight}\n"),
+        ["configs/x.yaml:7:48: path.line: belongs to waypoints, not to poses"]
+    );
+    assert_eq!(
+        errors(
+            "fog: none\npath: {drive: {points: [[0, 0], [0, 9]], speed_m_s: 1, rate_hz: 1, line: bent}}\n"
+        ),
+        ["configs/x.yaml:7:74: path.drive.line: unknown value \"bent\"; expected one of curve, straight"]
+    );
+}
+
+#[test]
 fn approaches() {
     let slope = |keys: &str| errors(&format!("fog: none\npath: {{glide_slope: {{{keys}}}}}\n"));
     assert_eq!(

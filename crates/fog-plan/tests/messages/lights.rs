@@ -171,3 +171,28 @@ fn light_groups() {
         ["configs/x.yaml:4:20: lighting.groups: 33 groups are too many; at most 32"]
     );
 }
+
+#[test]
+fn clear_skies() {
+    let with = |lighting: &str| {
+        let line = format!("lighting: {lighting}");
+        errors_with(&format!("{}fog: none\n", HEAD.replace("lighting: day", &line)), &[])
+    };
+    assert_eq!(
+        with("{clear: {sun_elevation: 10}}"),
+        [
+            "configs/x.yaml:4:20: lighting.clear.sun_elevation: unknown key; expected one of sun_elevation_deg, \
+             sun_azimuth_deg"
+        ]
+    );
+    assert_eq!(
+        with("{clear: {sun_elevation_deg: 100}}"),
+        ["configs/x.yaml:4:39: lighting.sun.elevation_deg: 100 deg is out of range; valid: -90 to 90 deg"]
+    );
+    assert_eq!(
+        with("{preset: dusk, clear: {sun_elevation_deg: 10}}"),
+        [
+            "configs/x.yaml:4:33: lighting.clear: not beside lighting.preset, which is a whole lighting of its own"
+        ]
+    );
+}

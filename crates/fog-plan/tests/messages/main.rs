@@ -1,6 +1,7 @@
 //! Every kind of mistake, with the exact message.
 
 mod cameras;
+mod hostile;
 mod includes;
 mod labels;
 mod lights;

@@ -66,7 +66,7 @@ fn models() {
         sensor("model: {read_noise: 2}"),
         [
             "configs/x.yaml:7:18: sensor.model.read_noise: unknown key; expected one of preset, bayer, adc_bits, black_level, \
-             full_well_e, read_noise_e, dark_current_e_s, shutter_s, gain, pixel_um, quantum_efficiency, photon_noise, \
+             full_well_e, read_noise_e, dark_current_e_s, shutter_s, gain, pixel_um, quantum_efficiency, prnu_1288, dsnu_1288_e, pattern_seed, photon_noise, \
              response, psf, vignetting, noise_seed; did you mean `read_noise_e`?"
         ]
     );
@@ -128,6 +128,23 @@ fn what_goes_with_a_model() {
              wavelength",
             "configs/x.yaml:7:36: sensor.exposure: ISO speeds are of visible light, but render.wavelength_nm renders one \
              wavelength; give a factor or `auto`",
+        ]
+    );
+}
+
+#[test]
+fn fixed_patterns() {
+    assert_eq!(
+        sensor("model: {prnu_1288: 1, dsnu_1288_e: -2}"),
+        [
+            "configs/x.yaml:7:29: sensor.model.prnu_1288: 1 is out of range; valid: 0 to 0.5",
+            "configs/x.yaml:7:45: sensor.model.dsnu_1288_e: -2 e is out of range; valid: 0 to 10000 e",
+        ]
+    );
+    assert_eq!(
+        sensor("model: {pattern_seed: 3}"),
+        [
+            "configs/x.yaml:7:32: sensor.model.pattern_seed: there is no pattern: give prnu_1288 or dsnu_1288_e"
         ]
     );
 }

@@ -94,6 +94,7 @@ pub(super) fn flatten(
         }
         if let Some(mesh) = node.mesh() {
             flat.object_nodes.push(node.index());
+            warn_of_deformation(&node, &mesh, &name, warnings);
             meshes.place(&mesh, &name, &here, &mut flat, warnings)?;
         }
         for child in node.children() {
@@ -107,6 +108,24 @@ pub(super) fn flatten(
         warnings.add(format!("{} triangles without area were left out", meshes.degenerate));
     }
     Ok(flat)
+}
+
+/// Skins and morph targets are not supported: says of which node, and what is seen instead.
+fn warn_of_deformation(node: &Node<'_>, mesh: &Mesh<'_>, name: &str, warnings: &mut Warnings) {
+    if let Some(skin) = node.skin() {
+        let skin = skin.name().map_or_else(|| skin.index().to_string(), str::to_owned);
+        warnings.add(format!(
+            "node `{name}`: its skin `{skin}` is not supported: mesh `{}` stands still where the node puts it, in the pose it was \
+             bound in",
+            mesh_name(mesh)
+        ));
+    }
+    if mesh.primitives().any(|primitive| primitive.morph_targets().len() > 0) {
+        warnings.add(format!(
+            "node `{name}`: morph targets of mesh `{}` are not supported: it has its first shape",
+            mesh_name(mesh)
+        ));
+    }
 }
 
 /// Adds a node to the list of all; what it hands down.

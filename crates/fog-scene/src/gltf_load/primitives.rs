@@ -46,14 +46,8 @@ pub(super) fn read(
             warnings.add(format!("points or lines of mesh `{name}` were left out"));
             continue;
         }
-        for (present, what) in [
-            (primitive.get(&Semantic::Colors(1)).is_some(), "vertex colours after the first"),
-            (primitive.get(&Semantic::Joints(0)).is_some(), "skinning"),
-            (primitive.morph_targets().len() > 0, "morph targets"),
-        ] {
-            if present {
-                warnings.add(format!("{what} of mesh `{name}` were ignored"));
-            }
+        if primitive.get(&Semantic::Colors(1)).is_some() {
+            warnings.add(format!("vertex colours after the first of mesh `{name}` were ignored"));
         }
         let material = primitive.material().index().and_then(|index| materials.get(index));
         let normal_map = material

@@ -142,3 +142,21 @@ fn what_cannot_move_is_told() {
         ]
     );
 }
+
+#[test]
+fn what_cannot_be_deformed_is_told() {
+    let (mut root, bin) = moving();
+    root["nodes"][2]["skin"] = 0.into();
+    root["skins"] = json!([{"name": "bones", "joints": [1]}]);
+    root["meshes"][0]["name"] = "cloth".into();
+    root["meshes"][0]["primitives"][0]["targets"] = json!([{"POSITION": 0}]);
+    assert_eq!(
+        open(&root, &bin).unwrap().at(0.0).unwrap().warnings,
+        [
+            "node `place`: morph targets of mesh `cloth` are not supported: it has its first shape",
+            "node `still`: its skin `bones` is not supported: mesh `cloth` stands still where the node puts it, in the pose it \
+             was bound in",
+            "node `still`: morph targets of mesh `cloth` are not supported: it has its first shape",
+        ]
+    );
+}

@@ -59,7 +59,8 @@ impl Fleet {
             let [x, y, z, w] = place.rotation;
             // The rear plate is turned around: the rotation times half a turn about Y.
             let rotation = if turned { [-z, w, x, -y] } else { [x, y, z, w] };
-            glb.node(&format!("{name}_plate_{end}"), "license plate", plate, Place { at: world, rotation });
+            let at = Place { at: world, rotation };
+            glb.part(&format!("{name}_plate_{end}"), "license plate", &name, plate, at);
         }
     }
 }

@@ -40,7 +40,14 @@ fn check_sizes(made: &Made) {
     within("person", [0.4, 1.45, 0.2], [0.9, 1.95, 1.2]);
     within("bicycle", [0.5, 1.0, 1.6], [0.7, 1.1, 1.8]);
     within("rider", [0.4, 1.4, 0.6], [0.9, 1.9, 1.2]);
-    within("license plate", [0.3, 0.1, 0.01], [0.54, 0.17, 0.03]);
+    assert!(within("license plate", [0.3, 0.1, 0.01], [0.54, 0.17, 0.03]) > 5);
+    // Plates are parts of their vehicles.
+    for plate in of_class(made, "license plate") {
+        let (name, instance) =
+            (plate["name"].as_str().unwrap(), plate["extras"]["instance"].as_str().unwrap());
+        assert_eq!(name.rsplit_once("_plate_").unwrap().0, instance);
+        assert!(made.json["nodes"].as_array().unwrap().iter().any(|node| node["name"] == instance));
+    }
 }
 
 #[test]
