@@ -22,6 +22,8 @@ const LAYER_M: f64 = 260.0;
 struct Arguments {
     scene: String,
     samples: u64,
+    /// In pixels; the height goes with it.
+    width: u32,
     seed: u64,
     threads: usize,
     /// Gives pixels samples by their relative error.
@@ -36,6 +38,7 @@ fn arguments() -> Result<Arguments, String> {
     let mut out = Arguments {
         scene: "day".into(),
         samples: 16,
+        width: 480,
         seed: 1,
         threads: 2,
         by_error: false,
@@ -50,6 +53,7 @@ fn arguments() -> Result<Arguments, String> {
         match key.as_str() {
             "--scene" => out.scene = value,
             "--samples" => out.samples = number()?,
+            "--width" => out.width = (number()? as u32).max(16),
             "--seed" => out.seed = number()?,
             "--threads" => out.threads = number()? as usize,
             "--allocate" if value == "even" => out.by_error = false,
@@ -59,7 +63,7 @@ fn arguments() -> Result<Arguments, String> {
             "--describe" => out.describe = Some(value),
             _ => {
                 return Err(format!(
-                    "{key} {value}: unknown; known: --scene --samples --seed --threads --allocate even or relative_error, --approximation similarity, --write --describe"
+                    "{key} {value}: unknown; known: --scene --samples --width --seed --threads --allocate even or relative_error, --approximation similarity, --write --describe"
                 ));
             }
         }
@@ -126,7 +130,7 @@ fn main() -> Result<(), String> {
     if let Some(path) = &arguments.describe {
         std::fs::write(path, describe(&scene)).map_err(|e| format!("{path}: {e}"))?;
     }
-    let camera = scenes::camera(1.7, 0.0, 0.0, 480, 270, 60.0);
+    let camera = scenes::camera(1.7, 0.0, 0.0, arguments.width, arguments.width * 9 / 16, 60.0);
     let stop = arguments.by_error.then_some(Stop::Budget);
     let settings = Settings { samples: arguments.samples, max_depth: None, wavelength_nm: None, stop };
     let observer = Observer::new();

@@ -198,7 +198,9 @@ fn compare(golden: &Golden) {
         assert!(worst < 8.0, "{name}, channel {c}: a pixel is off by {worst} standard errors");
         let allowed = seen + 6.0 * (2.0 * seen).sqrt();
         assert!(chi_square < allowed, "{name}, channel {c}: chi² {chi_square} of {seen} pixels");
-        assert!(chi_square > 0.25 * seen, "{name}, channel {c}: errors are overestimated, chi² {chi_square}");
+        // Stratification makes it less than one a pixel; so does an estimator that has become better than the stored one: by
+        // night twins of emitting places took away two fifths of the variance.
+        assert!(chi_square > 0.15 * seen, "{name}, channel {c}: errors are overestimated, chi² {chi_square}");
     }
 }
 

@@ -42,7 +42,13 @@ impl<'a> Cityscapes<'a> {
         let plain = |text: &str| -> String {
             text.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
         };
+        let cameras = &self.rig.cameras;
         let camera = match (&self.rig.stereo, track::camera(frame.plan)) {
+            (None, Some(name)) if cameras.iter().filter(|other| plain(other) == plain(name)).count() > 1 => {
+                // Names that differ in other signs only.
+                let place = cameras.iter().position(|other| other == name).unwrap_or_default();
+                format!("{}{place}", plain(name))
+            }
             (None, Some(name)) => plain(name),
             _ => String::new(),
         };

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::collections::HashSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{BufWriter, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde_json::Value;
 
@@ -94,6 +94,10 @@ impl Folder {
     /// [`Error::Io`].
     pub(crate) fn path(&self, name: &str) -> Result<PathBuf> {
         let path = self.dir.join(name);
+        // Names of cameras are in it.
+        if Path::new(name).components().any(|part| !matches!(part, Component::Normal(_))) {
+            return Err(Error::io("create", &path)(ErrorKind::InvalidFilename.into()));
+        }
         if let Some(parent) = path.parent()
             && !self.made.borrow().contains(parent)
         {
@@ -215,4 +219,23 @@ fn sync(dir: &Path) -> Result<()> {
         File::open(dir).and_then(|d| d.sync_all()).map_err(Error::io("sync", dir))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_written_outside_and_a_given_up_folder_goes() {
+        let base = tempfile::tempdir().expect("temporary folder");
+        let out = base.path().join("x");
+        let folder = Folder::begin(&out).expect("begin");
+        folder.write("a/b.txt", "b").expect("write");
+        for name in ["../c.txt", "/c.txt", "a/../../c.txt"] {
+            assert!(matches!(folder.write(name, "c"), Err(Error::Io { .. })), "{name}");
+        }
+        assert!(matches!(Folder::begin(&out), Err(Error::Busy { .. })));
+        drop(folder);
+        assert_eq!(fs::read_dir(base.path()).expect("list").count(), 0);
+    }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::job::{Job, Writer};
 use crate::lard::{self, Edition, Lard};
-use crate::{Error, Result, cityscapes, coco, kitti, nuscenes};
+use crate::{Error, Result, cityscapes, coco, huggingface, kitti, mcap_file, nuscenes, webdataset};
 
 /// A format of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +21,12 @@ pub enum Format {
     LardV2,
     /// nuScenes: pictures, and the 13 tables of its schema.
     Nuscenes,
+    /// WebDataset: tar files of the data set's own files.
+    WebDataset,
+    /// Hugging Face `datasets`: Parquet files with the pictures in them, and a card.
+    HuggingFace,
+    /// MCAP with Foxglove's messages: pictures, depth, cameras and boxes by time.
+    Mcap,
 }
 
 /// What is to be said of a format.
@@ -32,8 +38,17 @@ struct Entry {
 
 impl Format {
     /// All of them.
-    pub const ALL: &'static [Self] =
-        &[Self::Coco, Self::Kitti, Self::Cityscapes, Self::LardV1, Self::LardV2, Self::Nuscenes];
+    pub const ALL: &'static [Self] = &[
+        Self::Coco,
+        Self::Kitti,
+        Self::Cityscapes,
+        Self::LardV1,
+        Self::LardV2,
+        Self::Nuscenes,
+        Self::WebDataset,
+        Self::HuggingFace,
+        Self::Mcap,
+    ];
 
     fn entry(self) -> Entry {
         match self {
@@ -66,6 +81,21 @@ impl Format {
                 name: "nuscenes",
                 about: "samples/ and v1.0-fogbank/ with the 13 tables: scenes, poses, boxes, instances",
                 needs: nuscenes::NEEDS,
+            },
+            Self::WebDataset => Entry {
+                name: "webdataset",
+                about: "NAME-000000.tar, …: every file of each frame, under one key (--shard-size)",
+                needs: webdataset::NEEDS,
+            },
+            Self::HuggingFace => Entry {
+                name: "huggingface",
+                about: "data/train-*.parquet with pictures, axes, EXR files (--shard-size); README.md",
+                needs: huggingface::NEEDS,
+            },
+            Self::Mcap => Entry {
+                name: "mcap",
+                about: "NAME-000000.mcap, …: Foxglove's messages of pictures, depth, cameras, boxes",
+                needs: mcap_file::NEEDS,
             },
         }
     }
@@ -109,6 +139,9 @@ impl Format {
             Self::LardV1 => Box::new(Lard::begin(job, Edition::V1)?),
             Self::LardV2 => Box::new(Lard::begin(job, Edition::V2)?),
             Self::Nuscenes => Box::new(nuscenes::Nuscenes::begin(job)?),
+            Self::WebDataset => Box::new(webdataset::WebDataset::begin(job)),
+            Self::HuggingFace => Box::new(huggingface::HuggingFace::begin(job)?),
+            Self::Mcap => Box::new(mcap_file::Mcap::begin(job)),
         })
     }
 }

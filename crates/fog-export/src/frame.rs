@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use fog_dataset::{Channel, FileKind, Mask, OutputSet, PlanFrame, Reader};
+use fog_dataset::{Channel, FileEntry, FileKind, Mask, OutputSet, PlanFrame, Reader};
 use serde_json::{Value, json};
 
 use crate::{Error, Result};
@@ -54,6 +54,11 @@ impl<'a> Frame<'a> {
         details["intrinsics"] = record["sensor"]["intrinsics"].clone();
         details["fog_at_camera"] = record["fog_state"]["at_camera"].clone();
         Ok(details)
+    }
+
+    /// Names and sizes of its files, but for timings and a denoised picture.
+    pub(crate) fn files(&self) -> Result<Vec<FileEntry>> {
+        Ok(self.reader.files(self.plan)?)
     }
 
     /// Where a file of it is.

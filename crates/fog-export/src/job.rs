@@ -13,9 +13,19 @@ pub struct Options {
     /// Only things of these classes, by name; all if empty. Formats of label masks keep every class.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub classes: Vec<String>,
+    /// Size up to which a tar or Parquet file is filled, in MiB (1024 by default); one frame always fits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shard_size_mib: Option<u32>,
     /// Export again, whatever export is in the folder.
     #[serde(skip)]
     pub force: bool,
+}
+
+impl Options {
+    /// Size up to which a file is filled, in bytes.
+    pub(crate) fn shard_bytes(&self) -> u64 {
+        u64::from(self.shard_size_mib.unwrap_or(1024)) << 20
+    }
 }
 
 /// An export at work.
@@ -28,6 +38,14 @@ pub(crate) struct Job<'a> {
     pub(crate) options: &'a Options,
     /// Where a format tells what it cannot hold.
     pub(crate) losses: &'a Losses,
+}
+
+impl Job<'_> {
+    /// The data set's name as the beginning of file names: anything but letters, digits, `-` and `_` becomes `_`.
+    pub(crate) fn file_stem(&self) -> String {
+        let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+        self.reader.header().name.chars().map(kept).collect()
+    }
 }
 
 /// Writes the frames of a data set in one format.

@@ -14,14 +14,17 @@ mod error;
 mod folder;
 mod format;
 mod frame;
+mod huggingface;
 mod job;
 mod kitti;
 mod lard;
+mod mcap_file;
 mod nuscenes;
 mod png;
 mod run;
 mod summary;
 mod track;
+mod webdataset;
 
 pub use error::{Error, Result};
 pub use format::Format;

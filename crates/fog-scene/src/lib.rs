@@ -44,3 +44,4 @@ pub mod phase_angles;
 pub mod photometry;
 pub mod scene;
 pub mod sky_map;
+pub mod twins;

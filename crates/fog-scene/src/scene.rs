@@ -2,7 +2,7 @@
 
 use crate::bsdf::Bsdf;
 use crate::bvh::Hit;
-use crate::emitters::{EmitterTriangle, Emitters, pieces};
+use crate::emitters::{Breadth, EmitterTriangle, Emitters, pieces};
 use crate::gltf_load::LoadedScene;
 use crate::lamp::{Beam, Lamp, LampTree};
 use crate::light::{Environment, Sun};
@@ -11,6 +11,7 @@ use crate::material::AlphaMode;
 use crate::medium::{LateMedium, Medium};
 use crate::sky_map::SkyMap;
 use crate::triangle::{SurfacePoint, Triangle};
+use crate::twins::Twins;
 use fog_core::colour::{Rgb, upsample};
 use fog_core::spectrum::Spectrum;
 use fog_core::{Vec3A, warp};
@@ -32,6 +33,7 @@ pub struct Scene {
     /// Sun, if any.
     pub sun: Option<Sun>,
     emitters: Emitters,
+    twins: Twins,
     lamps: LampTree,
     beams: Vec<Beam>,
     /// Relative radiance of 1 cd/m² in the scene file.
@@ -84,6 +86,7 @@ impl Scene {
         scene_emitters: bool,
     ) -> Self {
         let emitters = if scene_emitters { find_emitters(&loaded, None) } else { Emitters::default() };
+        let twins = find_twins(&loaded, &emitters);
         let mut scene = Self {
             loaded,
             medium,
@@ -92,6 +95,7 @@ impl Scene {
             sky: None,
             sun,
             emitters,
+            twins,
             lamps: LampTree::default(),
             beams: Vec::new(),
             of_one_nit: 1.0,
@@ -281,6 +285,12 @@ impl Scene {
         &self.emitters
     }
 
+    /// Places on broad emitters that shine differently, in pairs; none where some surfaces are passed by chance.
+    #[must_use]
+    pub fn twins(&self) -> &Twins {
+        &self.twins
+    }
+
     /// Closest surface along a ray before `t_max`; blended surfaces are there where they cover at least half, and glass is
     /// a surface.
     #[inline]
@@ -433,6 +443,16 @@ fn find_emitters(loaded: &LoadedScene, grouping: Option<&Grouping>) -> Emitters 
         })
         .collect();
     Emitters::new(&triangles, all.len())
+}
+
+/// Pairs of places on the broad emitters of a scene that has not too many, and no surfaces that are passed by chance.
+fn find_twins(loaded: &LoadedScene, emitters: &Emitters) -> Twins {
+    let geometry = &loaded.geometry;
+    let broad = || emitters.triangles().filter(|&id| emitters.breadth(id) == Breadth::Broad);
+    if geometry.has_partial_opacity() || broad().nth(FEW_EMITTERS).is_some() {
+        return Twins::default();
+    }
+    Twins::new(broad(), geometry.triangles(), &loaded.materials, &loaded.textures)
 }
 
 /// Mean of `value` over the centres of `steps`² even parts of a triangle.

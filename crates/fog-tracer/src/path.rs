@@ -13,8 +13,10 @@ mod glow;
 mod layer;
 mod patchy;
 mod told;
+mod twin;
 
 use self::glow::Flight;
+use self::twin::Turn;
 use crate::equiangular::Segment;
 use crate::layer_light::{LayerLanes, LayerLight};
 use crate::lights::LightMix;
@@ -76,6 +78,8 @@ pub struct PathTracer<'a> {
     pub(crate) branches: u64,
     /// Of the fog among lamps.
     phase_angles: Option<PhaseAngles>,
+    /// Whether paths look at the twins of what they run into.
+    twins: bool,
 }
 
 /// What one path saw.
@@ -106,6 +110,8 @@ pub(crate) struct Path {
     share: f32,
     /// What the last flight crossed, in patchy fog.
     crossed: Option<Crossed>,
+    /// How the last event turned it.
+    turn: Turn,
 }
 
 /// What the wavelengths of a path need to be looked up.
@@ -189,6 +195,7 @@ impl<'a> PathTracer<'a> {
             layer_light,
             branches,
             phase_angles,
+            twins: twin::are_told(scene),
         }
     }
 
@@ -297,7 +304,7 @@ impl<'a> PathTracer<'a> {
     ) -> bool {
         self.pass(path, lanes, f64::from(hit.t));
         let surface = self.scene.surface(hit, path.direction, &lanes.basis);
-        let sum = self.emitted(path, hit, &surface);
+        let sum = self.emitted(path, hit, &surface, lanes);
         let expected = self.layer_beside(path, lanes, f64::from(surface.point.position.y));
         watch.see(|| Step::surface(hit, &surface, sum));
         watch.light(LightSource::Emitter(hit.triangle), sum, false);
@@ -308,7 +315,10 @@ impl<'a> PathTracer<'a> {
         out.radiance += self.lights_at_surface(path, &surface, lanes, rng, watch);
         let before = path.direction;
         let scattered = scatter_at_surface(path, &surface, rng);
-        watch.see(|| if scattered { path.turn(before) } else { Step::Absorbed });
+        if self.twins {
+            path.turn = Turn::at_surface(&surface);
+        }
+        watch.see(|| if scattered { path.turned(before) } else { Step::Absorbed });
         let after = if scattered { self.layer_ahead(path, lanes) } else { Spectrum::ZERO };
         self.add_difference(out, expected, after, watch);
         scattered
@@ -339,7 +349,7 @@ impl<'a> PathTracer<'a> {
             before: before.0 * scatterer.probability_ratio * (1.0 / self.flight_density(path, lanes, tau)),
         });
         out.radiance += self.scatter_in_fog(path, &scatterer, flight.as_ref(), lanes, rng, watch);
-        watch.see(|| path.turn(before.1));
+        watch.see(|| path.turned(before.1));
         let after = self.layer_at_collision(path, lanes, rng);
         self.add_difference(out, Spectrum::ZERO, after, watch);
         true
@@ -465,6 +475,9 @@ impl<'a> PathTracer<'a> {
             path.r_u *= value.density * inverse;
             path.beta *= value.phase * inverse;
         }
+        if self.twins {
+            path.turn = Turn::Droplet { before: path.direction, row: scatterer.row };
+        }
         path.direction = direction;
         path.depth += 1;
         sum
@@ -493,18 +506,6 @@ impl<'a> PathTracer<'a> {
             sum += light;
         }
         sum
-    }
-
-    /// Light that the surface itself emits towards the path.
-    #[inline(always)]
-    fn emitted(&self, path: &Path, hit: &Hit, surface: &Surface) -> Spectrum {
-        if surface.emission.is_zero() {
-            return Spectrum::ZERO;
-        }
-        let cos = -surface.normal.dot(path.direction);
-        let pdf =
-            if path.depth == 0 { 0.0 } else { self.lights.emitter_pdf(self.scene, path.vertex, hit, cos) };
-        path.beta * surface.emission * (1.0 / (path.r_u + path.r_l * pdf).mean())
     }
 
     /// Ends paths in proportion to the throughput that they have lost, and keeps the weights in a safe range.
@@ -546,7 +547,18 @@ impl<'a> PathTracer<'a> {
 impl Path {
     pub(crate) fn new(origin: Vec3A, direction: Vec3A) -> Self {
         let (beta, r_u, r_l) = (Spectrum::ONE, Spectrum::ONE, Spectrum::ZERO);
-        Self { origin, vertex: origin, direction, beta, r_u, r_l, depth: 0, share: 1.0, crossed: None }
+        Self {
+            origin,
+            vertex: origin,
+            direction,
+            beta,
+            r_u,
+            r_l,
+            depth: 0,
+            share: 1.0,
+            crossed: None,
+            turn: Turn::Untold,
+        }
     }
 
     fn weights(&self) -> Weights {
@@ -554,7 +566,7 @@ impl Path {
     }
 
     /// A turn for a watch.
-    fn turn(&self, before: Vec3A) -> Step {
+    fn turned(&self, before: Vec3A) -> Step {
         let (direction, depth) = (self.direction, self.depth);
         Step::Turn { direction, cosine: before.dot(direction), depth, weights: self.weights() }
     }

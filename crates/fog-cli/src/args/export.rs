@@ -9,6 +9,7 @@ Examples:
   fogbank export out/town --format coco --out town-coco
   fogbank export out/town --format coco --out town-cars --classes car,truck,bus
   fogbank export out/town --format kitti --out town-kitti
+  fogbank export out/town --format webdataset --out town-shards --shard-size 512
 
 Nothing is rendered again: a format is made of the outputs that the data set has, and says which it
 lacks. Frames that are not done are left out and counted. What a format cannot hold is counted and
@@ -38,6 +39,9 @@ pub(crate) struct ExportArgs {
     /// Only things of these classes, as `car,person`; formats of label masks keep every class.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) classes: Vec<String>,
+    /// MiB up to which a tar (webdataset) or Parquet file (huggingface) is filled, 1 and up; one frame always fits.
+    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) shard_size: u32,
     /// Print errors only.
     #[arg(long, short)]
     pub(crate) quiet: bool,

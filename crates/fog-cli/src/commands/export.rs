@@ -4,7 +4,7 @@ use crate::args::ExportArgs;
 use crate::listener::stop_on_request;
 use crate::print;
 use anyhow::Result;
-use fog_export::{Options, Progress};
+use fog_export::{Format, Options, Progress};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -17,7 +17,11 @@ use std::time::{Duration, Instant};
 const LINE_SECONDS: u64 = 10;
 
 pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode> {
-    let options = Options { classes: args.classes.clone(), force: args.force };
+    let options = Options {
+        classes: args.classes.clone(),
+        shard_size_mib: takes_shards(args.format).then_some(args.shard_size),
+        force: args.force,
+    };
     let shown = Shown::new(args.quiet, stop_on_request()?);
     let result = fog_export::export(&args.dir, args.format, &args.out, &options, &shown);
     shown.bar.finish_and_clear();
@@ -38,6 +42,11 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode> {
         print::complaint(told);
     }
     Ok(ExitCode::from(u8::from(left_out > 0)))
+}
+
+/// Whether the size of files is of account to a format.
+fn takes_shards(format: Format) -> bool {
+    matches!(format, Format::WebDataset | Format::HuggingFace)
 }
 
 /// A bar with ETA on a terminal, now and then a line elsewhere.

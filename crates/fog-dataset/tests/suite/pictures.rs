@@ -41,7 +41,7 @@ fn our_own_frames() {
     assert_eq!(picture_path(dir.path(), &images_only), Some(dir.path().join("f0.rgb.png")));
     // Truth is no picture.
     let e = refused(&dir.path().join("f0.gt.exr"));
-    assert!(e.contains("neither channels R, G, B nor Y, but CryptoObject00.A, N.Y, N.Z, P.X"), "{e}");
+    assert!(e.contains("neither channels R, G, B nor Y, but CryptoObject00.A, "), "{e}");
 }
 
 #[test]

@@ -45,6 +45,12 @@ impl MetallicRoughness {
         self.reflectance
     }
 
+    /// True if nothing is reflected by facets.
+    #[inline]
+    pub(super) fn is_lambertian(&self) -> bool {
+        self.specular_probability == 0.0
+    }
+
     /// Value × |cos θi| (1/sr) and density (1/sr) for a pair of directions; zero unless both are above the surface.
     #[inline]
     pub(super) fn eval(&self, wo: Vec3A, wi: Vec3A) -> (Spectrum, f32) {

@@ -69,6 +69,13 @@ impl Bsdf {
         Self { base, layers }
     }
 
+    /// True if light is scattered by the cosine alone, alike in all directions: see [`Bsdf::eval`].
+    #[inline]
+    #[must_use]
+    pub fn is_lambertian(&self) -> bool {
+        self.layers.is_none() && self.base.is_lambertian()
+    }
+
     /// The same material with a mapped normal (of unit length, in the shading frame). What goes through the surface and
     /// what its clear coat reflects does not follow the map.
     #[must_use]
