@@ -109,6 +109,15 @@ impl Reader {
         read_json(&self.path(frame, kind))
     }
 
+    /// The text of a file of JSON: its numbers are those that were written, to the last digit.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when it cannot be read, or is no text.
+    pub fn text(&self, frame: &PlanFrame, kind: FileKind) -> Result<String> {
+        let path = self.path(frame, kind);
+        fs::read_to_string(&path).map_err(Error::io("read", &path))
+    }
+
     /// A picture of whole numbers: classes, instances, the raw picture.
     ///
     /// # Errors

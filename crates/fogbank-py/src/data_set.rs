@@ -115,16 +115,14 @@ impl StoredFrame {
     }
 
     fn record_json(&self, py: Python<'_>) -> PyResult<String> {
-        let record = py.detach(|| self.reader.json(&self.frame, FileKind::Record));
-        Ok(record.map_err(wrong)?.to_string())
+        py.detach(|| self.reader.text(&self.frame, FileKind::Record)).map_err(wrong)
     }
 
     fn objects_json(&self, py: Python<'_>) -> PyResult<Option<String>> {
         if !self.frame.outputs.objects {
             return Ok(None);
         }
-        let objects = py.detach(|| self.reader.json(&self.frame, FileKind::Objects));
-        Ok(Some(objects.map_err(wrong)?.to_string()))
+        py.detach(|| self.reader.text(&self.frame, FileKind::Objects)).map(Some).map_err(wrong)
     }
 }
 

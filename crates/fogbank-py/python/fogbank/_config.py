@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any, SupportsIndex, overload
 
 from . import _fogbank
@@ -98,13 +97,14 @@ def plan(
         return config
     sets = [f"{path}={to_json(value)}" for path, value in (overrides or {}).items()]
     denoiser = oidn or os.environ.get("FOGBANK_OIDN") or None
+    name: str | os.PathLike[str]
     text: str | None = None
     if isinstance(config, Mapping):
-        name, text = Path(""), to_json(config)
+        name, text = "", to_json(config)
     elif isinstance(config, str) and ("\n" in config or config.lstrip().startswith("{")):
-        name, text = Path("config"), config
+        name, text = "config", config
     else:
-        name = Path(config)
+        name = config
     return Plan(_fogbank.Plan(name, text, sets, cache_dir, denoiser))
 
 
