@@ -51,4 +51,7 @@ step "tools in Python"
 wait "$packages" || { cat "$tools/pip.log"; exit 1; }
 bash tools/test.sh
 
+step "Python package"
+bash crates/fogbank-py/test.sh
+
 step "all passed"

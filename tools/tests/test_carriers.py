@@ -27,7 +27,7 @@ scene: {generate: urban, length_m: 80}
 fog: none
 path: {poses: [{time_s: 0, position_m: [1.6, 1.5, 0]}, {time_s: 0.1, position_m: [1.6, 1.5, -0.4]},
                {time_s: 0.25, position_m: [1.6, 1.5, -1]}]}
-sensor: {width_px: 64, height_px: 36}
+sensor: {width_px: 128, height_px: 72}
 render: {samples: 2}
 outputs: [image, hdr, depth, transmittance, semantic, instance, objects]
 sweep:
@@ -143,7 +143,7 @@ def test_mcap_has_foxgloves_messages(export, folder, frames):
             image, depth = of["/camera/image"], of["/camera/depth"]
             assert image.format == "png" and image.frame_id == depth.frame_id == "camera"
             assert (np.asarray(Image.open(io.BytesIO(image.data))) == frame.image).all()
-            assert (depth.encoding, depth.step, depth.width, depth.height) == ("32FC1", 256, 64, 36)
+            assert (depth.encoding, depth.step, depth.width, depth.height) == ("32FC1", 512, 128, 72)
             assert np.frombuffer(depth.data, "<f4").tobytes() == frame.channels["depth.Z"].tobytes()
             inner = frame.record["sensor"]["intrinsics"]
             calibration = of["/camera/calibration"]
