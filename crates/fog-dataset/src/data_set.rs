@@ -10,6 +10,7 @@ use crate::names::{CLASSES, CONFIG, HEADER, Kind, PLAN};
 use crate::opening::{self, Opening};
 use crate::plan::{self, EachFrame, Planned};
 use crate::read::{read_header_of, read_record_of};
+use crate::side_by_side::side_by_side;
 use crate::store::Store;
 use crate::survey::Survey;
 use crate::{Error, FrameFiles, FrameList, OutputSet, Result, denoised, encode, index};
@@ -194,13 +195,27 @@ impl DataSet {
 
     /// By frame, whether it is done, failed or neither, in plan order.
     ///
-    /// Goes by the names of the files in one listing: a frame is done if its marker and every file that its outputs ask for are
-    /// there, whatever is in them ([`DataSet::is_done`] looks at sizes, [`DataSet::is_intact`] at everything).
+    /// One listing tells what is there. In a folder, where somebody may have cut a file, the sizes of frames that seem done are
+    /// compared too ([`DataSet::is_done`]); a bucket has whole objects alone, and is not asked for each of them.
     ///
     /// # Errors
     /// [`Error::Io`] when the place cannot be listed.
     pub fn states(&self) -> Result<Vec<FrameState>> {
-        Ok(Survey::of(&self.store, &self.frames)?.states(&self.frames))
+        Ok(self.states_of(&Survey::of(&self.store, &self.frames)?))
+    }
+
+    fn states_of(&self, survey: &Survey) -> Vec<FrameState> {
+        side_by_side(&self.store, self.frames.len(), &|place| {
+            let state = survey.state(place, &self.frames);
+            let cut = state == FrameState::Done
+                && !self.store.waits()
+                && !self.is_complete(self.frames.id(place), Check::Size);
+            match state {
+                _ if cut && survey.has(place, Kind::Failed) => FrameState::Failed,
+                _ if cut => FrameState::Missing,
+                state => state,
+            }
+        })
     }
 
     /// The record of a frame.
@@ -277,7 +292,7 @@ impl DataSet {
     pub fn finish(&self) -> Result<Counts> {
         let mut survey = Survey::of(&self.store, &self.frames)?;
         loop {
-            let states = survey.states(&self.frames);
+            let states = self.states_of(&survey);
             for (place, _) in states.iter().enumerate().filter(|(_, s)| **s == FrameState::Done) {
                 if survey.has(place, Kind::Failed) {
                     self.store.remove(&Kind::Failed.file(self.frames.id(place)))?;
@@ -287,7 +302,7 @@ impl DataSet {
             self.store.sync()?;
             // A frame finished by another process meanwhile would be missing from an index written over its own.
             survey = Survey::of(&self.store, &self.frames)?;
-            if survey.states(&self.frames) == states {
+            if self.states_of(&survey) == states {
                 return Ok(Counts::of(&states));
             }
         }

@@ -41,8 +41,4 @@ impl Survey {
             FrameState::Missing
         }
     }
-
-    pub(crate) fn states(&self, frames: &FrameList) -> Vec<FrameState> {
-        (0..frames.len()).map(|place| self.state(place, frames)).collect()
-    }
 }
