@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn frames_are_found_again() {
         let mut list = FrameList::default();
-        let outputs = |i: usize| OutputSet { image: true, hdr: i % 3 == 0, ..OutputSet::default() };
+        let outputs = |i: usize| OutputSet { image: true, hdr: i.is_multiple_of(3), ..OutputSet::default() };
         for i in 0..1000 {
             list.push(&format!("f{i}"), outputs(i)).expect("a new id");
         }

@@ -33,7 +33,7 @@ fn rasters_are_alike_stored_and_not() {
         let (set, f) = (open(&dir.path().join(folder), 1), frame(5, 4, channels, 4));
         store(&set, "f0", &f).expect("written");
         let reader = Reader::open(set.store().place()).expect("a data set");
-        let mut planned = read_plan(dir.path()).expect("a plan").remove(0);
+        let mut planned = read_plan(set.store().place()).expect("a plan").remove(0);
         planned.spec = json!({"lighting": {"groups": [{"name": "lamps"}, {"name": "rest"}]}});
         let unstored = with_files("f0", &f, 1.5, |files| Raster::of_frame(files, planned.outputs));
         let names = raster_names(&planned);
