@@ -84,7 +84,7 @@ fn sun_disc() {
         let foggy = fog.is_some();
         let scene = Scene::new(scenes::load("street_day.glb"), fog, None, sun, false);
         let rays: &[(f64, f64)] = if foggy { &RAYS } else { &RAYS[2..3] };
-        assert_agree("sun", &scene, rays, None, 2_000_000);
+        assert_agree("sun", &scene, rays, None, 1_000_000);
     }
 }
 
