@@ -133,8 +133,7 @@ impl DataSet {
         // A process that was killed after claiming the folder may have left these out.
         for entry in &found.files {
             let text = match entry.name.as_str() {
-                // Its hash was compared where it is all that is known of the plan.
-                PLAN if entry.fault(&store, Check::Size).is_some() => {
+                PLAN if entry.fault(&store, Check::Hash).is_some() => {
                     plan::write(&store, each)?;
                     continue;
                 }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use crate::marker::FileEntry;
 use crate::names::PLAN;
 use crate::store::Store;
-use crate::{Error, FrameList, Header, OutputSet, Result};
+use crate::{Error, FrameList, OutputSet, Result};
 
 /// One frame of the plan; its index is its place in the list.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,13 +37,6 @@ struct Line<'a> {
     frame: &'a PlanFrame,
 }
 
-/// What a data set remembers of a line.
-#[derive(Deserialize)]
-struct Known<'a> {
-    id: &'a str,
-    outputs: OutputSet,
-}
-
 /// A plan that is given frame by frame: what its `plan.jsonl` holds, without its text.
 #[derive(Debug, Default)]
 pub struct Planned {
@@ -65,35 +58,6 @@ impl Planned {
     #[must_use]
     pub fn frames(&self) -> &FrameList {
         &self.frames
-    }
-
-    /// The plan of a data set that is there and of this configuration and code, if its `plan.jsonl` is whole: it is what the same
-    /// configuration would give again, read in a fraction of the time.
-    ///
-    /// # Errors
-    /// [`Error::Io`] or [`Error::Damaged`] when the header cannot be read.
-    pub fn stored(store: &Store, config_digest: &str, code_digest: &str) -> Result<Option<Self>> {
-        let Some(header) = Header::read(store)? else { return Ok(None) };
-        if header.config_digest != config_digest || header.code_digest != code_digest {
-            return Ok(None);
-        }
-        let Some(entry) = header.files.iter().find(|entry| entry.name == PLAN) else { return Ok(None) };
-        let Some(mut file) = store.open(PLAN)? else { return Ok(None) };
-        let mut planned = Self::default();
-        let mut line = Vec::new();
-        while file.read_until(b'\n', &mut line).map_err(Error::io("read", &store.path(PLAN)))? > 0 {
-            planned.hasher.update(&line);
-            // The rest of the line is long, and of no use here.
-            let known =
-                line.windows(9).position(|w| w == b",\"spec\":{").map(|at| [&line[..at], b"}"].concat());
-            let known = known.unwrap_or_else(|| line.clone());
-            let Ok(Known { id, outputs }) = serde_json::from_slice(&known) else { return Ok(None) };
-            if planned.frames.push(id, outputs).is_err() {
-                return Ok(None);
-            }
-            line.clear();
-        }
-        Ok((planned.entry() == *entry).then_some(planned))
     }
 
     pub(crate) fn entry(&self) -> FileEntry {
@@ -128,7 +92,7 @@ fn line(index: usize, frame: &PlanFrame) -> Vec<u8> {
     line
 }
 
-/// Reads the frames of a data set's `plan.jsonl` one by one; false from `each` ends that.
+/// Reads the frames of a data set's `plan.jsonl` one by one.
 ///
 /// # Errors
 /// [`Error::Io`] when it cannot be read, [`Error::Damaged`] naming the line that is no frame.
