@@ -104,14 +104,13 @@ pub(crate) struct ConfigArgs {
 /// How to work.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct WorkArgs {
-    /// Folder of the data set, made if it is not there; or s3://BUCKET/PREFIX, gs://BUCKET/PREFIX, az://CONTAINER/PREFIX.
+    /// Folder of the data set; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Threads to render with [default: all cores]. Does not change a single byte of the result.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder]; one of a bucket
-    /// (s3://…) stands behind that folder and is shared by many machines.
+    /// Folder of the optics tables [default: tables/cache beside ./tables, else the user's cache folder].
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
     /// Library of Open Image Denoise 2, or its folder, for the output `denoised` [default: the environment variable
@@ -163,6 +162,6 @@ pub(crate) struct PlanArgs {
 /// Arguments of `verify`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct VerifyArgs {
-    /// Folder of the data set, or s3://, gs://, az://.
+    /// Folder of the data set.
     pub(crate) dir: PathBuf,
 }

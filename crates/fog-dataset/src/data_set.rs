@@ -1,6 +1,9 @@
 //! The folder of a data set while it is being filled.
 
+use std::collections::HashMap;
 use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
@@ -8,14 +11,10 @@ use crate::header::{FORMAT, FORMAT_VERSION, Header};
 use crate::marker::{Check, FileEntry, Marker};
 use crate::names::{CLASSES, CONFIG, HEADER, Kind, PLAN};
 use crate::opening::{self, Opening};
-use crate::plan::{self, EachFrame, Planned};
-use crate::read::{read_header_of, read_record_of};
-use crate::side_by_side::side_by_side;
-use crate::store::Store;
-use crate::survey::Survey;
-use crate::{Error, FrameFiles, FrameList, OutputSet, Result, denoised, encode, index};
+use crate::{Error, FrameFiles, PlanFrame, Result, atomic, denoised, encode, index, plan, read_header};
 
 /// What a data set is made from.
+#[derive(Clone, Debug)]
 pub struct DataSetInfo<'a> {
     /// Its name.
     pub name: &'a str,
@@ -26,9 +25,7 @@ pub struct DataSetInfo<'a> {
     /// Digest of the code that renders; the same folder never holds frames of two.
     pub code_digest: &'a str,
     /// All frames in order, also when this process renders only some.
-    pub plan: Planned,
-    /// Gives the same frames again, for the text of `plan.jsonl` where it is not there yet.
-    pub frames: &'a EachFrame<'a>,
+    pub plan: Vec<PlanFrame>,
     /// Content of `classes.json`, where frames have classes.
     pub classes: Option<&'a Value>,
     /// Anything else for `dataset.json`, deterministic.
@@ -91,13 +88,14 @@ impl Counts {
 /// An open data set. Threads and processes may hold any number of them on one folder and write at the same time.
 #[derive(Debug)]
 pub struct DataSet {
-    store: Store,
+    dir: PathBuf,
     header: Header,
-    frames: FrameList,
+    plan: Vec<PlanFrame>,
+    places: HashMap<String, usize>,
 }
 
 impl DataSet {
-    /// Begins a data set in a new or empty place, or goes on with the same one; removes what killed writers left. `opening`
+    /// Begins a data set in a new or empty folder, or goes on with the same one; removes what killed writers left. `opening`
     /// says what is to become of another one.
     ///
     /// `differ` gets the text of the folder's `config.resolved.yaml` and names the keys in which it differs from this
@@ -106,69 +104,68 @@ impl DataSet {
     /// # Errors
     /// [`Error::ConfigDiffers`], [`Error::CodeDiffers`] or [`Error::PlanDiffers`] when the folder holds another data set,
     /// [`Error::NotAnExtension`] when it cannot be extended, [`Error::NotADataSet`] when it holds something else,
-    /// [`Error::Damaged`] when its `dataset.json` is unreadable, [`Error::Io`] when the system refuses.
+    /// [`Error::Damaged`] when its `dataset.json` is unreadable, [`Error::BadId`] for ids that cannot name files,
+    /// [`Error::Io`] when the system refuses.
     pub fn create_or_open(
-        store: Store,
+        dir: &Path,
         info: DataSetInfo<'_>,
         opening: Opening,
         differ: &dyn Fn(&str) -> Vec<String>,
     ) -> Result<Self> {
-        let config = info.config_yaml.as_bytes().to_vec();
-        let classes = info.classes.map(encode::pretty);
-        let mut files = vec![FileEntry::of(CONFIG.to_owned(), &config), info.plan.entry()];
-        files.extend(classes.as_ref().map(|classes| FileEntry::of(CLASSES.to_owned(), classes)));
-        let header = header_of(&info, files);
+        plan::check(&info.plan)?;
+        let lines = plan::to_lines(&info.plan, dir)?;
+        let mut texts = vec![(CONFIG, info.config_yaml.as_bytes().to_vec()), (PLAN, lines.into_bytes())];
+        texts.extend(info.classes.map(|classes| (CLASSES, encode::pretty(classes))));
+        let header = header_of(&info, &texts);
 
-        store.make()?;
-        let mut found = claim(&store, &header)?;
-        let (each, list) = (info.frames, info.plan.into_frames());
+        fs::create_dir_all(dir).map_err(Error::io("create", dir))?;
+        atomic::remove_abandoned(dir)?;
+        let mut found = claim(dir, &header)?;
         if !found.is_of_one_data_set(&header) {
             found = match opening {
-                Opening::Resume => return Err(difference(&store, found, header, differ)),
-                Opening::Overwrite => opening::replace(&store, header)?,
-                Opening::Extend => opening::extend(&store, &found, header, &list, each)?,
+                Opening::Resume => return Err(difference(dir, found, header, differ)),
+                Opening::Overwrite => opening::replace(dir, header)?,
+                Opening::Extend => opening::extend(dir, &found, header, &info.plan)?,
             };
         }
 
         // A process that was killed after claiming the folder may have left these out.
-        for entry in &found.files {
-            let text = match entry.name.as_str() {
-                PLAN if entry.fault(&store, Check::Hash).is_some() => {
-                    plan::write(&store, each)?;
-                    continue;
-                }
-                PLAN => continue,
-                CONFIG => &config,
-                _ => classes.as_ref().unwrap_or(&config),
-            };
-            if entry.fault(&store, Check::Hash).is_some() {
-                store.write(&entry.name, text.clone())?;
+        for (entry, (_, text)) in found.files.iter().zip(&texts) {
+            if entry.fault(dir, Check::Hash).is_some() {
+                atomic::write(dir, &entry.name, text)?;
             }
         }
-        store.sync()?;
-        Ok(Self { store, header: found, frames: list })
+        atomic::sync_dir(dir)?;
+
+        Ok(Self::of(dir, found, info.plan))
     }
 
-    /// Opens the data set that a place holds, by its own plan.
+    /// Opens the data set that a folder holds, by its own plan.
     ///
     /// # Errors
     /// [`Error::Io`] or [`Error::Damaged`] when its header or plan cannot be read.
-    pub fn open(store: Store) -> Result<Self> {
-        let header = read_header_of(&store)?;
-        let frames = plan::read_list(&store)?;
-        Ok(Self { store, header, frames })
+    pub fn open(dir: &Path) -> Result<Self> {
+        let header = read_header(dir)?;
+        let plan = plan::read(dir)?;
+        plan::check(&plan)?;
+        Ok(Self::of(dir, header, plan))
     }
 
-    /// Where it is.
+    fn of(dir: &Path, header: Header, plan: Vec<PlanFrame>) -> Self {
+        let places = plan.iter().enumerate().map(|(i, frame)| (frame.id.clone(), i)).collect();
+        Self { dir: dir.to_path_buf(), header, plan, places }
+    }
+
+    /// The folder.
     #[must_use]
-    pub fn store(&self) -> &Store {
-        &self.store
+    pub fn dir(&self) -> &Path {
+        &self.dir
     }
 
     /// The frames, in order.
     #[must_use]
-    pub fn frames(&self) -> &FrameList {
-        &self.frames
+    pub fn plan(&self) -> &[PlanFrame] {
+        &self.plan
     }
 
     /// Whether the frame's marker is whole, of this configuration and code, and every file that its outputs ask for is
@@ -185,44 +182,29 @@ impl DataSet {
     }
 
     fn is_complete(&self, id: &str, check: Check) -> bool {
-        let Ok(outputs) = self.outputs(id) else { return false };
-        let Ok(Some(marker)) = Marker::read(&self.store, id) else { return false };
+        let Ok(frame) = self.frame(id) else { return false };
+        let Ok(Some(marker)) = Marker::read(&self.dir, id) else { return false };
         self.header.takes(&marker.config_digest)
             && marker.code_digest == self.header.code_digest
-            && marker.faults(&self.store, outputs, check).is_empty()
+            && marker.faults(&self.dir, frame.outputs, check).is_empty()
     }
 
-    /// By frame, whether it is done, failed or neither, in plan order.
-    ///
-    /// One listing tells what is there. In a folder, where somebody may have cut a file, the sizes of frames that seem done are
-    /// compared too ([`DataSet::is_done`]); a bucket has whole objects alone, and is not asked for each of them.
-    ///
-    /// # Errors
-    /// [`Error::Io`] when the place cannot be listed.
-    pub fn states(&self) -> Result<Vec<FrameState>> {
-        Ok(self.states_of(&Survey::of(&self.store, &self.frames)?))
+    /// Whether the frame is done, failed or neither.
+    #[must_use]
+    pub fn state(&self, id: &str) -> FrameState {
+        if self.is_done(id) {
+            FrameState::Done
+        } else if self.dir.join(Kind::Failed.file(id)).is_file() {
+            FrameState::Failed
+        } else {
+            FrameState::Missing
+        }
     }
 
-    fn states_of(&self, survey: &Survey) -> Vec<FrameState> {
-        side_by_side(&self.store, self.frames.len(), &|place| {
-            let state = survey.state(place, &self.frames);
-            let cut = state == FrameState::Done
-                && !self.store.waits()
-                && !self.is_complete(self.frames.id(place), Check::Size);
-            match state {
-                _ if cut && survey.has(place, Kind::Failed) => FrameState::Failed,
-                _ if cut => FrameState::Missing,
-                state => state,
-            }
-        })
-    }
-
-    /// The record of a frame.
-    ///
-    /// # Errors
-    /// [`Error::Io`] when it cannot be read, [`Error::Damaged`] when it does not parse.
-    pub fn read_record(&self, id: &str) -> Result<Value> {
-        read_record_of(&self.store, id)
+    /// States of all frames, in plan order.
+    #[must_use]
+    pub fn states(&self) -> Vec<FrameState> {
+        self.plan.iter().map(|frame| self.state(&frame.id)).collect()
     }
 
     /// Writes the files that the frame's outputs ask for, then its marker, and forgets an earlier failure.
@@ -231,32 +213,31 @@ impl DataSet {
     /// [`Error::UnknownFrame`], [`Error::Frame`] for a picture that does not fit together, [`Error::Picture`] when it
     /// cannot be encoded, [`Error::Io`] when the system refuses. No marker is written then.
     pub fn write_frame(&self, files: &FrameFiles<'_>) -> Result<()> {
-        let outputs = self.outputs(files.id)?;
+        let outputs = self.frame(files.id)?.outputs;
         files.frame.check().map_err(|source| Error::Frame { id: files.id.to_owned(), source })?;
 
-        let (mut entries, mut contents) = (Vec::new(), Vec::new());
+        let mut entries = Vec::new();
         for kind in Kind::HASHED.into_iter().filter(|k| k.wanted(outputs)) {
             let name = kind.file(files.id);
-            let content = encode::hashed(kind, files, outputs, &self.store.path(&name))?;
-            entries.push(FileEntry::of(name.clone(), &content));
-            contents.push((name, content));
+            let content = encode::hashed(kind, files, outputs, &self.dir.join(&name))?;
+            atomic::write(&self.dir, &name, &content)?;
+            entries.push(FileEntry::of(name, &content));
         }
         if outputs.denoised {
-            contents.extend(denoised::files(&self.store, files)?);
+            denoised::write(&self.dir, files)?;
         }
-        contents.push((Kind::Timing.file(files.id), encode::timing(files)));
-        self.store.write_all(contents)?;
+        atomic::write(&self.dir, &Kind::Timing.file(files.id), &encode::timing(files))?;
         // The files must be on the disk under their names before the marker says so.
-        self.store.sync()?;
+        atomic::sync_dir(&self.dir)?;
         let marker = json!(Marker {
             id: files.id.to_owned(),
             config_digest: self.header.config_digest.clone(),
             code_digest: self.header.code_digest.clone(),
             files: entries,
         });
-        self.store.write(&Kind::Done.file(files.id), encode::pretty(&marker))?;
-        self.store.remove(&Kind::Failed.file(files.id))?;
-        self.store.sync()
+        atomic::write(&self.dir, &Kind::Done.file(files.id), &encode::pretty(&marker))?;
+        atomic::remove(&self.dir.join(Kind::Failed.file(files.id)))?;
+        atomic::sync_dir(&self.dir)
     }
 
     /// Records why a frame failed; does nothing when another process has finished it meanwhile.
@@ -264,13 +245,13 @@ impl DataSet {
     /// # Errors
     /// [`Error::UnknownFrame`], or [`Error::Io`] when the system refuses.
     pub fn record_failure(&self, id: &str, reason: &str) -> Result<()> {
-        self.outputs(id)?;
+        self.frame(id)?;
         if self.is_done(id) {
             return Ok(());
         }
         let content = encode::pretty(&json!({ "id": id, "reason": reason }));
-        self.store.write(&Kind::Failed.file(id), content)?;
-        self.store.sync()
+        atomic::write(&self.dir, &Kind::Failed.file(id), &content)?;
+        atomic::sync_dir(&self.dir)
     }
 
     /// Forgets that a frame is done, or that it failed, so that it is missing.
@@ -278,8 +259,16 @@ impl DataSet {
     /// # Errors
     /// [`Error::UnknownFrame`], or [`Error::Io`] when the system refuses.
     pub fn forget(&self, id: &str) -> Result<()> {
-        self.outputs(id)?;
-        [Kind::Done, Kind::Failed].iter().try_for_each(|kind| self.store.remove(&kind.file(id)))
+        self.frame(id)?;
+        [Kind::Done, Kind::Failed].iter().try_for_each(|kind| atomic::remove(&self.dir.join(kind.file(id))))
+    }
+
+    /// Removes what killed writers left; frames that are being written are not touched.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when the system refuses.
+    pub fn clean(&self) -> Result<()> {
+        atomic::remove_abandoned(&self.dir)
     }
 
     /// Writes `index.csv` from what the folder holds now, and counts.
@@ -289,36 +278,34 @@ impl DataSet {
     /// # Errors
     /// [`Error::Io`] when the system refuses.
     pub fn finish(&self) -> Result<Counts> {
-        let mut survey = Survey::of(&self.store, &self.frames)?;
+        let mut states = self.states();
         loop {
-            let states = self.states_of(&survey);
-            for (place, _) in states.iter().enumerate().filter(|(_, s)| **s == FrameState::Done) {
-                if survey.has(place, Kind::Failed) {
-                    self.store.remove(&Kind::Failed.file(self.frames.id(place)))?;
-                }
+            for (frame, _) in self.plan.iter().zip(&states).filter(|(_, s)| **s == FrameState::Done) {
+                atomic::remove(&self.dir.join(Kind::Failed.file(&frame.id)))?;
             }
-            index::write(&self.store, self.frames.all_outputs(), &states)?;
-            self.store.sync()?;
+            index::write(&self.dir, &self.plan, &states)?;
+            atomic::sync_dir(&self.dir)?;
             // A frame finished by another process meanwhile would be missing from an index written over its own.
-            survey = Survey::of(&self.store, &self.frames)?;
-            if self.states_of(&survey) == states {
+            let now = self.states();
+            if now == states {
                 return Ok(Counts::of(&states));
             }
+            states = now;
         }
     }
 
-    fn outputs(&self, id: &str) -> Result<OutputSet> {
-        let unknown = || Error::UnknownFrame { dir: self.store.place().to_path_buf(), id: id.to_owned() };
-        self.frames.find(id).map(|place| self.frames.outputs(place)).ok_or_else(unknown)
+    fn frame(&self, id: &str) -> Result<&PlanFrame> {
+        let unknown = || Error::UnknownFrame { dir: self.dir.clone(), id: id.to_owned() };
+        self.places.get(id).map(|&i| &self.plan[i]).ok_or_else(unknown)
     }
 }
 
 /// Why the folder's data set is not ours.
-fn difference(store: &Store, found: Header, ours: Header, differ: &dyn Fn(&str) -> Vec<String>) -> Error {
-    let dir = store.place().to_path_buf();
+fn difference(dir: &Path, found: Header, ours: Header, differ: &dyn Fn(&str) -> Vec<String>) -> Error {
+    let dir = dir.to_path_buf();
     if found.config_digest != ours.config_digest {
-        let old = store.read(CONFIG).ok().flatten().and_then(|old| String::from_utf8(old).ok());
-        return Error::ConfigDiffers { dir, keys: old.map_or_else(Vec::new, |old| differ(&old)) };
+        let keys = fs::read_to_string(dir.join(CONFIG)).map_or_else(|_| Vec::new(), |old| differ(&old));
+        return Error::ConfigDiffers { dir, keys };
     }
     if found.code_digest != ours.code_digest {
         return Error::CodeDiffers { dir, found: found.code_digest, expected: ours.code_digest };
@@ -326,32 +313,33 @@ fn difference(store: &Store, found: Header, ours: Header, differ: &dyn Fn(&str) 
     Error::PlanDiffers { dir }
 }
 
-fn header_of(info: &DataSetInfo<'_>, files: Vec<FileEntry>) -> Header {
+fn header_of(info: &DataSetInfo<'_>, texts: &[(&str, Vec<u8>)]) -> Header {
     Header {
         format: FORMAT.to_owned(),
         format_version: FORMAT_VERSION,
         name: info.name.to_owned(),
-        frames: info.plan.frames().len() as u64,
+        frames: info.plan.len() as u64,
         config_digest: info.config_digest.to_owned(),
         extends: Vec::new(),
         code_digest: info.code_digest.to_owned(),
-        files,
+        files: texts.iter().map(|(name, text)| FileEntry::of((*name).to_owned(), text)).collect(),
         details: info.details.clone(),
     }
 }
 
 /// The folder's header: the one that is there, or ours if nobody was first.
-fn claim(store: &Store, ours: &Header) -> Result<Header> {
-    if let Some(found) = Header::read(store)? {
+fn claim(dir: &Path, ours: &Header) -> Result<Header> {
+    if let Some(found) = Header::read(dir)? {
         return Ok(found);
     }
-    let other = store.other_than(HEADER)?;
-    // Another process may claim the folder right now.
-    if let Some(found) = other
-        && Header::read(store)?.is_none()
-    {
-        return Err(Error::NotADataSet { dir: store.place().to_path_buf(), found });
+    for entry in fs::read_dir(dir).map_err(Error::io("list", dir))? {
+        let name = entry.map_err(Error::io("list", dir))?.file_name().to_string_lossy().into_owned();
+        // Another process may claim the folder right now.
+        if name != HEADER && !atomic::is_temporary(&name) && Header::read(dir)?.is_none() {
+            return Err(Error::NotADataSet { dir: dir.to_path_buf(), found: name });
+        }
     }
-    store.write_new(HEADER, encode::pretty(&json!(ours)))?;
-    Header::read(store)?.ok_or("it vanished").map_err(Error::damaged(&store.path(HEADER)))
+    atomic::write_new(dir, HEADER, &encode::pretty(&json!(ours)))?;
+    let path = dir.join(HEADER);
+    Header::read(dir)?.ok_or("it vanished").map_err(Error::damaged(&path))
 }

@@ -1,10 +1,12 @@
 //! `dataset.json`: what the folder holds. Written first, it claims the folder.
 
+use std::fs;
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::names::HEADER;
-use crate::store::Store;
 use crate::{Error, FileEntry, Result};
 
 /// Value of [`Header::format`].
@@ -50,9 +52,13 @@ impl Header {
     }
 
     /// Reads `dataset.json`; `None` when there is none.
-    pub(crate) fn read(store: &Store) -> Result<Option<Self>> {
-        let path = store.path(HEADER);
-        let Some(text) = store.read(HEADER)? else { return Ok(None) };
+    pub(crate) fn read(dir: &Path) -> Result<Option<Self>> {
+        let path = dir.join(HEADER);
+        let text = match fs::read(&path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(Error::io("read", &path)(e)),
+        };
         let header: Self = serde_json::from_slice(&text).map_err(Error::damaged(&path))?;
         if header.format != FORMAT || !(1..=FORMAT_VERSION).contains(&header.format_version) {
             let found = format!("format `{}` version {}", header.format, header.format_version);

@@ -1,7 +1,7 @@
 //! Frames and their records to files, and back: layout, markers, resume and verification. Also single pictures, ours and
 //! those of others, to compare ([`read_picture`]).
 //!
-//! A data set is a folder, or a prefix of a bucket in an object store ([`Store`]):
+//! A data set is a folder:
 //!
 //! | file | content |
 //! |---|---|
@@ -24,11 +24,12 @@
 //! | `<id>.failed.json` | why the frame failed; gone when it later succeeds |
 //! | `index.csv` | one line per frame of the plan, written by [`DataSet::finish`] |
 //!
-//! In a folder every file is written aside, synced and renamed, so that it appears only when whole, as objects do. Several processes may work in
+//! Every file is written aside, synced and renamed, so that it appears only when whole. Several processes may work in
 //! one folder: a frame's bytes depend on the frame alone, so it does not matter which of two writers wins. All bytes but
 //! the timings are reproducible, those of `denoised` with the same library on the same kind of processor only; nothing here reads the clock but the age check of abandoned temporary files on
 //! file systems without locks.
 
+mod atomic;
 mod cryptomatte;
 mod data_set;
 mod denoised;
@@ -38,7 +39,6 @@ mod estimate;
 mod exr_file;
 mod exr_header;
 mod frame_files;
-mod frame_list;
 mod header;
 mod index;
 mod layers;
@@ -52,9 +52,6 @@ mod plan;
 mod rasters;
 mod read;
 mod reader;
-mod side_by_side;
-mod store;
-mod survey;
 mod verify;
 
 pub use data_set::{Counts, DataSet, DataSetInfo, FrameState};
@@ -62,7 +59,6 @@ pub use error::{Error, Result};
 pub use estimate::estimate_bytes;
 pub use exr_file::{Attribute, Channel, read_exr_channels};
 pub use frame_files::{CameraPicture, ClearPicture, DenoisedPicture, FrameFiles, View};
-pub use frame_list::FrameList;
 pub use header::{FORMAT, FORMAT_VERSION, Header};
 pub use marker::{FileEntry, Marker};
 pub use merge::{Merged, merge};
@@ -70,9 +66,8 @@ pub use names::Kind as FileKind;
 pub use opening::Opening;
 pub use outputs::OutputSet;
 pub use picture_file::{read_picture, write_png};
-pub use plan::{EachFrame, PlanFrame, Planned, read_plan};
+pub use plan::PlanFrame;
 pub use rasters::{Raster, Values, file_of_raster, raster_names};
-pub use read::{StoredFrame, picture_path, read_frame, read_header, read_record};
+pub use read::{StoredFrame, picture_path, read_frame, read_header, read_plan, read_record};
 pub use reader::{Mask, Reader};
-pub use store::Store;
 pub use verify::{Problem, Report, verify};

@@ -1,9 +1,11 @@
 //! The marker that makes a frame count as done.
 
+use std::fs;
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use crate::names::Kind;
-use crate::store::Store;
 use crate::{Error, OutputSet, Result, denoised};
 
 /// Size and hash of a file of the data set.
@@ -45,21 +47,27 @@ impl FileEntry {
         Self { name, bytes: content.len() as u64, blake3: blake3::hash(content).to_hex().to_string() }
     }
 
-    /// What is wrong with the file, if anything.
-    pub(crate) fn fault(&self, store: &Store, check: Check) -> Option<String> {
-        let found = match check {
-            Check::Size => store.size(&self.name).map(|bytes| (bytes, None)),
-            Check::Hash => store.hash(&self.name).map(|(bytes, hash)| (bytes, Some(hash))),
+    /// What is wrong with the file in `dir`, if anything.
+    pub(crate) fn fault(&self, dir: &Path, check: Check) -> Option<String> {
+        let path = dir.join(&self.name);
+        let found = match fs::metadata(&path) {
+            Ok(m) if m.is_file() => m.len(),
+            Ok(_) => return Some("is no file".to_owned()),
+            Err(e) => return Some(format!("cannot be read: {e}")),
         };
-        match found {
+        if found != self.bytes {
+            return Some(format!("has {found} bytes instead of {}", self.bytes));
+        }
+        if check == Check::Size {
+            return None;
+        }
+        let mut hasher = blake3::Hasher::new();
+        match fs::File::open(&path).and_then(|file| hasher.update_reader(file).map(drop)) {
             Err(e) => Some(format!("cannot be read: {e}")),
-            Ok((bytes, _)) if bytes != self.bytes => {
-                Some(format!("has {bytes} bytes instead of {}", self.bytes))
-            }
-            Ok((_, Some(hash))) if hash.to_hex().as_str() != self.blake3 => {
+            Ok(()) if hasher.finalize().to_hex().as_str() != self.blake3 => {
                 Some("has another content than its recorded hash".to_owned())
             }
-            Ok(_) => None,
+            Ok(()) => None,
         }
     }
 }
@@ -69,10 +77,13 @@ impl Marker {
     ///
     /// # Errors
     /// [`Error::Damaged`] when it is no marker of this frame, [`Error::Io`] when it cannot be read.
-    pub(crate) fn read(store: &Store, id: &str) -> Result<Option<Self>> {
-        let name = Kind::Done.file(id);
-        let path = store.path(&name);
-        let Some(text) = store.read(&name)? else { return Ok(None) };
+    pub(crate) fn read(dir: &Path, id: &str) -> Result<Option<Self>> {
+        let path = dir.join(Kind::Done.file(id));
+        let text = match fs::read(&path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(Error::io("read", &path)(e)),
+        };
         let marker: Self = serde_json::from_slice(&text).map_err(Error::damaged(&path))?;
         if marker.id != id {
             return Err(Error::damaged(&path)(format!("it is the marker of frame `{}`", marker.id)));
@@ -82,17 +93,17 @@ impl Marker {
 
     /// What is wrong with the frame's files, by file name: files that the outputs ask for and the marker lacks, and files
     /// that differ from their entries.
-    pub(crate) fn faults(&self, store: &Store, outputs: OutputSet, check: Check) -> Vec<(String, String)> {
+    pub(crate) fn faults(&self, dir: &Path, outputs: OutputSet, check: Check) -> Vec<(String, String)> {
         let mut faults = Vec::new();
         for kind in Kind::HASHED.into_iter().filter(|k| k.wanted(outputs)) {
             let name = kind.file(&self.id);
             match self.files.iter().find(|f| f.name == name) {
-                Some(entry) => faults.extend(entry.fault(store, check).map(|fault| (name, fault))),
+                Some(entry) => faults.extend(entry.fault(dir, check).map(|fault| (name, fault))),
                 None => faults.push((name, "is not in the frame's marker".to_owned())),
             }
         }
         if outputs.denoised {
-            faults.extend(denoised::faults(store, &self.id, check));
+            faults.extend(denoised::faults(dir, &self.id, check));
         }
         faults
     }

@@ -1,16 +1,12 @@
 //! Parts of a data set, made apart, into one folder.
 
-use std::io::ErrorKind;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::marker::{Check, Marker};
 use crate::names::{HEADER, Kind};
-use crate::read::read_header_of;
-use crate::side_by_side::side_by_side;
-use crate::store::Store;
-use crate::survey::Survey;
 use crate::verify::foreign;
-use crate::{Counts, DataSet, Error, Header, Problem, Result};
+use crate::{Counts, DataSet, Error, FrameState, Header, PlanFrame, Problem, Result, atomic, read_header};
 
 /// What [`merge`] did.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,70 +27,55 @@ pub struct Merged {
 /// [`Error::Io`] or [`Error::Damaged`] when a header or plan cannot be read or the folder cannot be written.
 pub fn merge(out: &Path, parts: &[PathBuf]) -> Result<Merged> {
     let mut merged = Merged { taken: vec![0; parts.len()], ..Merged::default() };
-    let parts = parts.iter().map(|part| Store::at(part)).collect::<Result<Vec<_>>>()?;
     let Some(first) = parts.first() else { return Ok(merged) };
-    let header = read_header_of(first)?;
+    let header = read_header(first)?;
     for part in &parts[1..] {
-        if !read_header_of(part)?.is_of_one_data_set(&header) {
-            let [a, b] = [first, part].map(|store| store.place().to_path_buf());
-            return Err(Error::NotOneDataSet { a, b });
+        if !read_header(part)?.is_of_one_data_set(&header) {
+            return Err(Error::NotOneDataSet { a: first.clone(), b: part.clone() });
         }
     }
-    let data_set = begin(Store::at(out)?, &header, &parts)?;
-    let frames = data_set.frames();
-    let surveys = parts.iter().map(|part| Survey::of(part, frames)).collect::<Result<Vec<_>>>()?;
-    let here = Survey::of(data_set.store(), frames)?;
-    let one = |place: usize| {
-        let mut problems = Vec::new();
-        if here.has(place, Kind::Done) && data_set.is_intact(frames.id(place)) {
-            return Ok((None, problems));
+    let data_set = begin(out, &header, parts)?;
+    for frame in data_set.plan() {
+        if data_set.is_intact(&frame.id) {
+            continue;
         }
-        for (i, part) in parts.iter().enumerate().filter(|(i, _)| surveys[*i].has(place, Kind::Done)) {
-            if take(&data_set, part, &surveys[i], place, &header, &mut problems)? {
-                return Ok((Some(i), problems));
+        for (i, part) in parts.iter().enumerate() {
+            if take(out, part, frame, &header, &mut merged.problems)? {
+                merged.taken[i] += 1;
+                break;
             }
         }
-        // Nobody has it: why, if it failed somewhere.
-        if !here.has(place, Kind::Failed)
-            && let Some((part, _)) = parts.iter().zip(&surveys).find(|(_, s)| s.has(place, Kind::Failed))
-        {
-            copy(part, data_set.store(), &Kind::Failed.file(frames.id(place)))?;
+        if data_set.state(&frame.id) == FrameState::Missing {
+            take_failure(out, parts, &frame.id)?;
         }
-        Ok((None, problems))
-    };
-    let remote = parts.iter().chain([data_set.store()]).find(|store| store.waits());
-    for result in side_by_side(remote.unwrap_or(first), frames.len(), &one) {
-        let (from, problems) = result?;
-        from.into_iter().for_each(|i: usize| merged.taken[i] += 1);
-        merged.problems.extend(problems);
     }
     merged.counts = data_set.finish()?;
     Ok(merged)
 }
 
 /// The folder with the header, configuration and plan of the parts.
-fn begin(out: Store, header: &Header, parts: &[Store]) -> Result<DataSet> {
-    out.make()?;
-    match Header::read(&out)? {
+fn begin(out: &Path, header: &Header, parts: &[PathBuf]) -> Result<DataSet> {
+    fs::create_dir_all(out).map_err(Error::io("create", out))?;
+    atomic::remove_abandoned(out)?;
+    match Header::read(out)? {
         Some(found) if found.is_of_one_data_set(header) => {}
-        Some(_) => {
-            let [a, b] = [&out, &parts[0]].map(|store| store.place().to_path_buf());
-            return Err(Error::NotOneDataSet { a, b });
-        }
+        Some(_) => return Err(Error::NotOneDataSet { a: out.to_path_buf(), b: parts[0].clone() }),
         None => {
-            if let Some(found) = out.other_than(HEADER)? {
-                return Err(Error::NotADataSet { dir: out.place().to_path_buf(), found });
+            if let Some(entry) = fs::read_dir(out).map_err(Error::io("list", out))?.next() {
+                let found = entry.map_err(Error::io("list", out))?.file_name();
+                let found = found.to_string_lossy().into_owned();
+                return Err(Error::NotADataSet { dir: out.to_path_buf(), found });
             }
-            copy(&parts[0], &out, HEADER)?;
+            copy(&parts[0], out, HEADER)?;
         }
     }
     for entry in &header.files {
-        if entry.fault(&out, Check::Hash).is_some() {
-            let whole = |part: &&Store| entry.fault(part, Check::Hash).is_none();
+        if entry.fault(out, Check::Hash).is_some() {
+            let whole = |part: &&PathBuf| entry.fault(part, Check::Hash).is_none();
             let part = parts.iter().find(whole).ok_or_else(|| {
-                Error::damaged(&parts[0].path(&entry.name))("no part has it with its recorded hash")
+                Error::damaged(&parts[0].join(&entry.name))("no part has it with its recorded hash")
             })?;
-            copy(part, &out, &entry.name)?;
+            copy(part, out, &entry.name)?;
         }
     }
     DataSet::open(out)
@@ -102,47 +83,54 @@ fn begin(out: Store, header: &Header, parts: &[Store]) -> Result<DataSet> {
 
 /// Copies a frame if the part has it whole; notes what is damaged.
 fn take(
-    data_set: &DataSet,
-    part: &Store,
-    survey: &Survey,
-    place: usize,
+    out: &Path,
+    part: &Path,
+    frame: &PlanFrame,
     header: &Header,
     problems: &mut Vec<Problem>,
 ) -> Result<bool> {
-    let (out, frames) = (data_set.store(), data_set.frames());
-    let (id, outputs) = (frames.id(place), frames.outputs(place));
-    let problem = |file: String, reason| Problem { frame: Some(id.to_owned()), file, reason };
-    let marker = match Marker::read(part, id) {
+    let problem = |file: String, reason| Problem { frame: Some(frame.id.clone()), file, reason };
+    let marker = match Marker::read(part, &frame.id) {
         Ok(Some(marker)) => marker,
         Ok(None) => return Ok(false),
         Err(e) => {
-            problems.push(problem(Kind::Done.file(id), e.to_string()));
+            problems.push(problem(Kind::Done.file(&frame.id), e.to_string()));
             return Ok(false);
         }
     };
     let mut faults = foreign(&marker, header);
-    faults.extend(marker.faults(part, outputs, Check::Hash));
+    faults.extend(marker.faults(part, frame.outputs, Check::Hash));
     if !faults.is_empty() {
-        let named = |(file, reason): (String, String)| (part.path(&file).display().to_string(), reason);
+        let named = |(file, reason): (String, String)| (part.join(file).display().to_string(), reason);
         problems.extend(faults.into_iter().map(named).map(|(file, reason)| problem(file, reason)));
         return Ok(false);
     }
     for kind in Kind::all().filter(|kind| !matches!(kind, Kind::Done | Kind::Failed)) {
-        if survey.has(place, kind) {
-            copy(part, out, &kind.file(id))?;
+        let name = kind.file(&frame.id);
+        if part.join(&name).is_file() {
+            copy(part, out, &name)?;
         }
     }
-    if !marker.faults(out, outputs, Check::Hash).is_empty() {
+    if !marker.faults(out, frame.outputs, Check::Hash).is_empty() {
         return Ok(false);
     }
-    out.sync()?;
-    copy(part, out, &Kind::Done.file(id))?;
-    out.remove(&Kind::Failed.file(id))?;
+    atomic::sync_dir(out)?;
+    copy(part, out, &Kind::Done.file(&frame.id))?;
+    atomic::remove(&out.join(Kind::Failed.file(&frame.id)))?;
     Ok(true)
 }
 
-fn copy(from: &Store, to: &Store, name: &str) -> Result<()> {
-    let content = from.read(name)?;
-    let content = content.ok_or_else(|| Error::io("read", &from.path(name))(ErrorKind::NotFound.into()))?;
-    to.write(name, content)
+/// Copies the record of a failure, if a part has one.
+fn take_failure(out: &Path, parts: &[PathBuf], id: &str) -> Result<()> {
+    let name = Kind::Failed.file(id);
+    match parts.iter().find(|part| part.join(&name).is_file()) {
+        Some(part) => copy(part, out, &name),
+        None => Ok(()),
+    }
+}
+
+fn copy(from: &Path, to: &Path, name: &str) -> Result<()> {
+    let path = from.join(name);
+    let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
+    atomic::write(to, name, &bytes)
 }

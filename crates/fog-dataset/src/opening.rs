@@ -1,14 +1,13 @@
 //! What becomes of a data set that is there already.
 
-use serde::Deserialize;
-use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::path::Path;
+
+use serde_json::json;
 
 use crate::header::Header;
 use crate::names::{CLASSES, HEADER, INDEX, Kind};
-use crate::plan::EachFrame;
-use crate::store::Store;
-use crate::survey::Survey;
-use crate::{Error, FrameList, OutputSet, Result, encode, plan};
+use crate::{Error, PlanFrame, Result, atomic, encode, plan};
 
 /// How a folder is opened that may hold a data set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,68 +22,42 @@ pub enum Opening {
 }
 
 /// Removes the frames of the folder's data set and makes the folder that of another.
-pub(crate) fn replace(store: &Store, ours: Header) -> Result<Header> {
-    let old = plan::read_list(store)?;
-    let survey = Survey::of(store, &old)?;
-    for place in 0..old.len() {
-        for kind in Kind::all().filter(|&kind| survey.has(place, kind)) {
-            store.remove(&kind.file(old.id(place)))?;
+pub(crate) fn replace(dir: &Path, ours: Header) -> Result<Header> {
+    for frame in plan::read(dir)? {
+        for kind in Kind::all() {
+            atomic::remove(&dir.join(kind.file(&frame.id)))?;
         }
     }
-    store.remove(INDEX)?;
-    store.remove(CLASSES)?;
+    atomic::remove(&dir.join(INDEX))?;
+    atomic::remove(&dir.join(CLASSES))?;
     // Until now it is the old data set with fewer frames, from now on the new one with none.
-    write(store, ours)
-}
-
-/// What a longer plan must keep of a frame.
-#[derive(Deserialize)]
-struct Kept {
-    id: String,
-    outputs: OutputSet,
-    #[serde(default)]
-    spec: Spec,
-}
-
-#[derive(Default, Deserialize)]
-struct Spec {
-    #[serde(default)]
-    digest: Value,
+    write(dir, ours)
 }
 
 /// Makes the folder's data set that of a longer plan.
-pub(crate) fn extend(
-    store: &Store,
-    found: &Header,
-    ours: Header,
-    list: &FrameList,
-    frames: &EachFrame<'_>,
-) -> Result<Header> {
+pub(crate) fn extend(dir: &Path, found: &Header, ours: Header, frames: &[PlanFrame]) -> Result<Header> {
     if found.code_digest != ours.code_digest {
         let (found, expected) = (found.code_digest.clone(), ours.code_digest);
-        return Err(Error::CodeDiffers { dir: store.place().to_path_buf(), found, expected });
+        return Err(Error::CodeDiffers { dir: dir.to_path_buf(), found, expected });
     }
-    let mut digests = Vec::with_capacity(list.len());
-    frames(&mut |frame| {
-        digests.push(frame.spec.get("digest").cloned().unwrap_or_default());
-        Ok(())
-    })?;
-    plan::read(store, &mut |Kept { id, outputs, spec }| {
-        let same = |place| list.outputs(place) == outputs && digests[place] == spec.digest;
-        if list.find(&id).is_some_and(same) {
-            return Ok(());
+    let new: HashMap<&str, &PlanFrame> = frames.iter().map(|frame| (frame.id.as_str(), frame)).collect();
+    let same = |old: &PlanFrame, new: &PlanFrame| {
+        old.outputs == new.outputs && old.spec.get("digest") == new.spec.get("digest")
+    };
+    for old in plan::read(dir)? {
+        if !new.get(old.id.as_str()).is_some_and(|new| same(&old, new)) {
+            return Err(Error::NotAnExtension { dir: dir.to_path_buf(), frame: old.id });
         }
-        Err(Error::NotAnExtension { dir: store.place().to_path_buf(), frame: id })
-    })?;
+    }
     let mut extends = found.extends.clone();
     extends.push(found.config_digest.clone());
-    write(store, Header { extends, ..ours })
+    write(dir, Header { extends, ..ours })
 }
 
 /// Replaces the header, before the files that it names as in a new folder: whoever is killed after this leaves the rest to be
 /// written by the next.
-fn write(store: &Store, header: Header) -> Result<Header> {
-    store.write(HEADER, encode::pretty(&json!(header)))?;
-    store.sync()?;
+fn write(dir: &Path, header: Header) -> Result<Header> {
+    atomic::write(dir, HEADER, &encode::pretty(&json!(header)))?;
+    atomic::sync_dir(dir)?;
     Ok(header)
 }

@@ -13,8 +13,7 @@ use image::{ImageFormat, ImageReader};
 
 use crate::exr_file::{self, REC_709};
 use crate::layers::STANDARD_ERROR;
-use crate::store::Store;
-use crate::{Error, Result, encode};
+use crate::{Error, Result, atomic, encode};
 
 /// First bytes of an OpenEXR file.
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -58,7 +57,7 @@ pub fn write_png(path: &Path, picture: &Srgb8Picture) -> Result<()> {
     let dir = path.parent().filter(|dir| !dir.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().and_then(|name| name.to_str());
     let name = name.ok_or(std::io::ErrorKind::InvalidFilename.into()).map_err(Error::io("write", path))?;
-    Store::at(dir)?.write(name, bytes)
+    atomic::write(dir, name, &bytes)
 }
 
 fn not_a_picture(path: &Path, reason: String) -> Error {

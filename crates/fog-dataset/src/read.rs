@@ -1,15 +1,14 @@
 //! Reading a data set back.
 
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use crate::header::Header;
-use crate::names::{HEADER, Kind, check_id};
-use crate::store::Store;
-use crate::{Channel, Error, PlanFrame, Result, read_exr_channels};
+use crate::names::{Kind, check_id};
+use crate::{Channel, Error, PlanFrame, Result, plan, read_exr_channels};
 
 /// A frame as it is stored.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +30,7 @@ pub fn read_frame(dir: &Path, id: &str) -> Result<StoredFrame> {
     for kind in [Kind::Hdr, Kind::Truth] {
         match read_exr_channels(&dir.join(kind.file(id))) {
             Ok(found) => channels.extend(found),
-            Err(Error::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {}
+            Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {}
             Err(e) => return Err(e),
         }
     }
@@ -44,14 +43,8 @@ pub fn read_frame(dir: &Path, id: &str) -> Result<StoredFrame> {
 /// [`Error::BadId`], [`Error::Io`] when it cannot be read, [`Error::Damaged`] when it does not parse.
 pub fn read_record(dir: &Path, id: &str) -> Result<Value> {
     check_id(id)?;
-    read_record_of(&Store::at(dir)?, id)
-}
-
-/// As [`read_record`].
-pub(crate) fn read_record_of(store: &Store, id: &str) -> Result<Value> {
-    let name = Kind::Record.file(id);
-    let path = store.path(&name);
-    let text = store.read(&name)?.ok_or_else(|| Error::io("read", &path)(ErrorKind::NotFound.into()))?;
+    let path = dir.join(Kind::Record.file(id));
+    let text = fs::read(&path).map_err(Error::io("read", &path))?;
     serde_json::from_slice(&text).map_err(Error::damaged(&path))
 }
 
@@ -70,11 +63,14 @@ pub fn picture_path(dir: &Path, frame: &PlanFrame) -> Option<PathBuf> {
 /// # Errors
 /// [`Error::Io`] when there is none or it cannot be read, [`Error::Damaged`] when it is not ours.
 pub fn read_header(dir: &Path) -> Result<Header> {
-    read_header_of(&Store::at(dir)?)
+    let missing = || Error::io("read", &dir.join(crate::names::HEADER))(std::io::ErrorKind::NotFound.into());
+    Header::read(dir)?.ok_or_else(missing)
 }
 
-/// As [`read_header`].
-pub(crate) fn read_header_of(store: &Store) -> Result<Header> {
-    let missing = || Error::io("read", &store.path(HEADER))(ErrorKind::NotFound.into());
-    Header::read(store)?.ok_or_else(missing)
+/// Reads the frames of `plan.jsonl`, in order.
+///
+/// # Errors
+/// [`Error::Io`] when it cannot be read, [`Error::Damaged`] naming the line that is no frame.
+pub fn read_plan(dir: &Path) -> Result<Vec<PlanFrame>> {
+    plan::read(dir)
 }

@@ -12,7 +12,6 @@ use serde_json::Value;
 use crate::header::Header;
 use crate::marker::{Check, FileEntry, Marker};
 use crate::names::{CLASSES, PLAN, check_id};
-use crate::store::Store;
 use crate::{Channel, Error, FileKind, FrameState, PlanFrame, Result, read_exr_channels, read_header};
 
 /// An open data set that is only read.
@@ -79,9 +78,8 @@ impl Reader {
         let of_this = |marker: &Marker| {
             self.header.takes(&marker.config_digest) && marker.code_digest == self.header.code_digest
         };
-        let Ok(store) = Store::at(&self.dir) else { return FrameState::Missing };
-        match Marker::read(&store, &frame.id) {
-            Ok(Some(m)) if of_this(&m) && m.faults(&store, frame.outputs, Check::Size).is_empty() => {
+        match Marker::read(&self.dir, &frame.id) {
+            Ok(Some(m)) if of_this(&m) && m.faults(&self.dir, frame.outputs, Check::Size).is_empty() => {
                 FrameState::Done
             }
             _ if self.path(frame, FileKind::Failed).is_file() => FrameState::Failed,
@@ -94,7 +92,7 @@ impl Reader {
     /// # Errors
     /// [`Error::Damaged`] or [`Error::Io`] when its marker cannot be read.
     pub fn files(&self, frame: &PlanFrame) -> Result<Vec<FileEntry>> {
-        Ok(Marker::read(&Store::at(&self.dir)?, &frame.id)?.map_or_else(Vec::new, |marker| marker.files))
+        Ok(Marker::read(&self.dir, &frame.id)?.map_or_else(Vec::new, |marker| marker.files))
     }
 
     /// Where a file of the frame is, if its outputs ask for it.

@@ -4,11 +4,7 @@ use std::path::Path;
 
 use crate::marker::{Check, Marker};
 use crate::names::Kind;
-use crate::read::read_header_of;
-use crate::side_by_side::side_by_side;
-use crate::store::Store;
-use crate::survey::Survey;
-use crate::{Counts, Error, FrameState, Header, Result, plan};
+use crate::{Counts, Error, FrameState, Header, Result, read_header, read_plan};
 
 /// A file that is not what the data set says.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,43 +40,35 @@ impl Report {
 /// [`Error::Io`] or [`Error::Damaged`] when `dataset.json` or `plan.jsonl` cannot be read at all: then there is nothing
 /// to compare with.
 pub fn verify(dir: &Path) -> Result<Report> {
-    let store = Store::at(dir)?;
-    let header = read_header_of(&store)?;
+    let header = read_header(dir)?;
     let mut report = Report::default();
     for entry in &header.files {
-        if let Some(reason) = entry.fault(&store, Check::Hash) {
+        if let Some(reason) = entry.fault(dir, Check::Hash) {
             report.problems.push(Problem { frame: None, file: entry.name.clone(), reason });
         }
     }
-    let frames = plan::read_list(&store)?;
-    let survey = Survey::of(&store, &frames)?;
-    let check = |place: usize| {
-        if !survey.has(place, Kind::Done) {
-            return Ok(None);
-        }
-        match Marker::read(&store, frames.id(place)) {
+    let mut states = Vec::new();
+    for frame in read_plan(dir)? {
+        let faults = match Marker::read(dir, &frame.id) {
             Ok(Some(marker)) => {
                 let mut faults = foreign(&marker, &header);
-                faults.extend(marker.faults(&store, frames.outputs(place), Check::Hash));
-                Ok(Some(faults))
+                faults.extend(marker.faults(dir, frame.outputs, Check::Hash));
+                Some(faults)
             }
-            Ok(None) => Ok(None),
+            Ok(None) => None,
             Err(e @ (Error::Damaged { .. } | Error::Io { .. })) => {
-                Ok(Some(vec![(Kind::Done.file(frames.id(place)), e.to_string())]))
+                Some(vec![(Kind::Done.file(&frame.id), e.to_string())])
             }
-            Err(e) => Err(e),
-        }
-    };
-    let mut states = Vec::new();
-    for (place, faults) in side_by_side(&store, frames.len(), &check).into_iter().enumerate() {
-        let faults = faults?;
+            Err(e) => return Err(e),
+        };
+        let failed = || dir.join(Kind::Failed.file(&frame.id)).is_file();
         states.push(match &faults {
             Some(faults) if faults.is_empty() => FrameState::Done,
-            _ if survey.has(place, Kind::Failed) => FrameState::Failed,
+            _ if failed() => FrameState::Failed,
             _ => FrameState::Missing,
         });
         for (file, reason) in faults.into_iter().flatten() {
-            report.problems.push(Problem { frame: Some(frames.id(place).to_owned()), file, reason });
+            report.problems.push(Problem { frame: Some(frame.id.clone()), file, reason });
         }
     }
     report.counts = Counts::of(&states);

@@ -2,33 +2,23 @@
 
 use crate::error::Error;
 use crate::resources::Resources;
-use fog_dataset::{DataSet, FrameState};
+use fog_dataset::DataSet;
 use fog_plan::FrameSpec;
 use std::path::Path;
-
-/// Most frames whose records are read, evenly spread: every sweep compares, so those that are there agree with each other.
-const MOST_COMPARED: usize = 1000;
 
 /// Refuses a data set with a frame that was made from another content of a file than `resources` has read. A frame's record
 /// has the hashes, in `fog_state.files`, `sensor.raw.response_blake3` and `lighting.environment.blake3`.
 ///
 /// # Errors
 /// [`Error::FileChanged`], or if the record of a frame that is done cannot be read.
-pub(crate) fn refuse(
-    data_set: &DataSet,
-    states: &[FrameState],
-    frames: &[FrameSpec],
-    resources: &Resources,
-) -> Result<(), Error> {
+pub(crate) fn refuse(data_set: &DataSet, frames: &[FrameSpec], resources: &Resources) -> Result<(), Error> {
     let paths: Vec<&Path> = frames.iter().flat_map(|frame| frame.fog.files()).collect();
     let ours = resources.files().hashes(paths);
     let curves = |f: &FrameSpec| f.sensor.model.as_ref().and_then(|m| m.response_file()).map(Path::to_owned);
     let reads_files =
         |f: &&FrameSpec| !f.fog.files().is_empty() || f.lighting.image().is_some() || curves(f).is_some();
-    let done = frames.iter().zip(states).filter(|(_, state)| **state == FrameState::Done);
-    let done: Vec<&FrameSpec> = done.map(|(frame, _)| frame).filter(reads_files).collect();
-    for frame in done.iter().step_by(done.len().div_ceil(MOST_COMPARED).max(1)) {
-        let record = data_set.read_record(&frame.id)?;
+    for frame in frames.iter().filter(reads_files).filter(|f| data_set.is_done(&f.id)) {
+        let record = fog_dataset::read_record(data_set.dir(), &frame.id)?;
         let theirs = &record["fog_state"]["files"];
         let changed = |(file, hash): &(&String, &String)| theirs[*file].as_str().is_some_and(|h| h != *hash);
         let fog = ours.iter().find(changed).map(|(file, _)| file.clone());
@@ -44,7 +34,7 @@ pub(crate) fn refuse(
         });
         let other = image.map(Path::to_owned).or(curves).map(|file| file.display().to_string());
         if let Some(file) = fog.or(other) {
-            let (dir, frame) = (data_set.store().place().to_owned(), frame.id.clone());
+            let (dir, frame) = (data_set.dir().to_owned(), frame.id.clone());
             return Err(Error::FileChanged { dir, file, frame });
         }
     }

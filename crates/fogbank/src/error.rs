@@ -14,9 +14,6 @@ pub enum Error {
     /// A fog cannot be made.
     #[error("{0}")]
     Fog(String),
-    /// The folder of the optics tables cannot be written.
-    #[error("{0}")]
-    Tables(String),
     /// A light cannot be made.
     #[error("{0}")]
     Lighting(String),

@@ -11,8 +11,7 @@ use crate::work::{Job, Report};
 use crate::workers::{self, Workers};
 use crate::{CODE_DIGEST, camera_record, changed_files, clear_air, frame, labels, sensor};
 use fog_dataset::{
-    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame, Planned,
-    Raster, Store,
+    Attribute, Counts, DataSet, DataSetInfo, FrameFiles, FrameState, Opening, OutputSet, PlanFrame, Raster,
 };
 use fog_plan::{FrameSpec, Plan};
 use serde_json::json;
@@ -100,17 +99,14 @@ fn prepare(
 
     // 2. The data set: new, or the same one begun earlier.
     let data_set = open(plan, &frames, dir, options.opening)?;
-    let states = data_set.states()?;
-    changed_files::refuse(&data_set, &states, &frames, resources)?;
+    changed_files::refuse(&data_set, &frames, resources)?;
     if options.opening == Opening::Overwrite {
-        let there = selected.iter().filter(|&&i| states[i] != FrameState::Missing);
-        there.into_iter().try_for_each(|&i| data_set.forget(&frames[i].id))?;
+        selected.iter().try_for_each(|&i| data_set.forget(&frames[i].id))?;
     }
-    let overwritten = options.opening == Opening::Overwrite;
     let (mut done, mut failed) = (0, 0);
     for &i in &selected {
         let id = &frames[i].id;
-        let mut state = if overwritten { FrameState::Missing } else { states[i] };
+        let mut state = data_set.state(id);
         if options.recheck && state == FrameState::Done && !data_set.is_intact(id) {
             progress.event(Event::Warning(format!("frame {id} is damaged and will be rendered again")));
             data_set.forget(id)?;
@@ -278,24 +274,17 @@ pub fn output_set(spec: &FrameSpec) -> OutputSet {
     OutputSet { groups: !spec.lighting.groups.is_empty(), ..set }
 }
 
-/// A frame as the data set's plan has it.
-fn plan_frame(f: &FrameSpec) -> PlanFrame {
-    PlanFrame {
-        id: f.id.clone(),
-        pair_id: Some(f.pair_id.clone()),
-        axes: f.axes.iter().cloned().collect(),
-        outputs: output_set(f),
-        spec: json!(f),
-    }
-}
-
 fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Result<DataSet, Error> {
-    let store = Store::at(dir)?;
-    let each = |each: &mut dyn FnMut(&PlanFrame) -> fog_dataset::Result<()>| {
-        frames.iter().map(plan_frame).try_for_each(|frame| each(&frame))
-    };
-    let mut planned = Planned::default();
-    each(&mut |frame| planned.push(frame))?;
+    let plan_frames = frames
+        .iter()
+        .map(|f| PlanFrame {
+            id: f.id.clone(),
+            pair_id: Some(f.pair_id.clone()),
+            axes: f.axes.iter().cloned().collect(),
+            outputs: output_set(f),
+            spec: json!(f),
+        })
+        .collect();
     let details = json!({
         "generator": "Fogbank",
         "version": env!("CARGO_PKG_VERSION"),
@@ -309,13 +298,12 @@ fn open(plan: &Plan, frames: &[FrameSpec], dir: &Path, opening: Opening) -> Resu
         config_yaml: &config_yaml,
         config_digest: &plan.config_digest(),
         code_digest: CODE_DIGEST,
-        plan: planned,
-        frames: &each,
+        plan: plan_frames,
         classes: classes.as_ref(),
         details: &details,
     };
     let differ = |old: &str| plan.differing_keys(old).unwrap_or_default();
-    Ok(DataSet::create_or_open(store, info, opening, &differ)?)
+    Ok(DataSet::create_or_open(dir, info, opening, &differ)?)
 }
 
 pub(crate) fn store(

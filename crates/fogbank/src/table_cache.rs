@@ -7,7 +7,6 @@
 use crate::error::Error;
 use fog_core::droplet_table::DropletTable;
 use fog_core::optics_table::{OpticsTable, OpticsTableError, SharedBytes};
-use fog_dataset::Store;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -44,11 +43,10 @@ macro_rules! stored {
 }
 stored!(OpticsTable, DropletTable);
 
-/// A folder of optics tables, perhaps with an object store behind it that many machines share.
+/// A folder of optics tables.
 #[derive(Clone, Debug)]
 pub struct TableCache {
     dir: PathBuf,
-    shared: Option<Arc<Store>>,
 }
 
 /// How a table came to be.
@@ -74,19 +72,13 @@ impl TableCache {
     /// Cache in `dir`, which need not exist yet.
     #[must_use]
     pub fn new(dir: impl Into<PathBuf>) -> Self {
-        Self { dir: dir.into(), shared: None }
-    }
-
-    /// As this one, with another place behind it: tables are fetched from there before they are built, and put there when they were.
-    #[must_use]
-    pub fn backed_by(self, shared: Store) -> Self {
-        Self { shared: Some(Arc::new(shared)), ..self }
+        Self { dir: dir.into() }
     }
 
     /// Opens the table `name` whose inputs are `fingerprint`, building it with `build` if it is not there or damaged.
     ///
     /// # Errors
-    /// Those of `build`, and of a place behind the folder that cannot be reached. A cache that cannot be written only costs its sharing ([`TableOrigin::Unstored`]).
+    /// Those of `build`. A cache that cannot be written only costs its sharing ([`TableOrigin::Unstored`]).
     pub fn open<T: Stored>(
         &self,
         name: &str,
@@ -95,8 +87,7 @@ impl TableCache {
     ) -> Result<(T, TableOrigin), Error> {
         let endian = if cfg!(target_endian = "big") { "-be" } else { "" };
         let hash = blake3::hash(fingerprint).to_hex();
-        let file = format!("{name}-{}{endian}.fogtable", &hash[..16]);
-        let path = self.dir.join(&file);
+        let path = self.dir.join(format!("{name}-{}{endian}.fogtable", &hash[..16]));
         if let Ok(table) = read(&path) {
             return Ok((table, TableOrigin::Found(path)));
         }
@@ -109,42 +100,16 @@ impl TableCache {
             Ok(table) => return Ok((table, TableOrigin::Found(path))),
             Err(why) => path.exists().then_some(why),
         };
-        if let Some(table) = self.fetched(&file, &path)? {
-            return Ok((table, TableOrigin::Found(path)));
-        }
         let table = build()?;
         let stored = store(&path, table.as_bytes());
         drop(lock);
         match stored {
             Ok(()) => match read(&path) {
-                Ok(mapped) => {
-                    if let Some(shared) = &self.shared {
-                        shared.upload(&file, &path)?;
-                        shared.disconnect();
-                    }
-                    Ok((mapped, TableOrigin::Built { path, replaced }))
-                }
+                Ok(mapped) => Ok((mapped, TableOrigin::Built { path, replaced })),
                 Err(reason) => Ok((table, TableOrigin::Unstored { reason })),
             },
             Err(e) => Ok((table, TableOrigin::Unstored { reason: format!("{}: {e}", path.display()) })),
         }
-    }
-
-    /// The table from the place behind the folder, if it is there and whole; it is in the folder then.
-    fn fetched<T: Stored>(&self, file: &str, path: &Path) -> Result<Option<T>, Error> {
-        let Some(shared) = &self.shared else { return Ok(None) };
-        let unwritable = |e: std::io::Error| Error::Tables(format!("cannot write {}: {e}", path.display()));
-        let temp = tempfile::NamedTempFile::new_in(&self.dir).map_err(unwritable)?;
-        let found = shared.fetch(file, temp.as_file())?;
-        // No thread of it may be left when workers are forked.
-        shared.disconnect();
-        // One that is damaged is built again and replaced.
-        let Some(table) = found.then(|| read(temp.path()).ok()).flatten() else { return Ok(None) };
-        temp.as_file()
-            .sync_all()
-            .and_then(|()| temp.persist(path).map_err(|e| e.error))
-            .map_err(unwritable)?;
-        Ok(Some(table))
     }
 
     fn lock(&self, path: &Path) -> std::io::Result<File> {

@@ -45,7 +45,7 @@ pub(crate) fn run(
     let outcome = pool.run();
     pool.end();
     // What killed workers were about to write.
-    job.data_set.store().clean()?;
+    job.data_set.clean()?;
     outcome
 }
 

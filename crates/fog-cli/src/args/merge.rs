@@ -6,7 +6,6 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   fogbank merge part0 part1 part2 --out whole      three folders that `fogbank sweep --shard I/3` has filled
-  fogbank merge s3://bucket/out --out here         a data set fetched from a bucket
   fogbank merge /mnt/*/out --out whole             again when more has arrived: only what is missing is copied
 
 The folders must be of one configuration and one version of the program. Every file is hashed on the way: a frame with a

@@ -17,10 +17,8 @@ Examples:
   fogbank sweep c.yaml --out out --shard auto                 in a Slurm job array: its own part
   fogbank sweep c.yaml --out out --mode extend                after values were added to an axis
   fogbank sweep c.yaml --out out --log json > log.jsonl       what happens as lines of JSON
-  fogbank sweep c.yaml --out s3://bucket/prefix --cache-dir s3://bucket/tables   into a bucket; also gs:// and az://
 
 Any number of processes and machines may fill one folder at the same time; every frame has the same bytes whoever makes it.
-Buckets take their credentials from AWS_*, GOOGLE_* or AZURE_*; AWS_ENDPOINT_URL names another server that speaks S3.
 Ctrl-C gives up the frames at work and keeps those that are done; a second one ends the program at once.
 
 Exit codes: 0 all selected frames are done, 1 a frame failed, 2 wrong arguments, configuration or files, 130 stopped.";

@@ -6,7 +6,6 @@ use crate::listener::Listener;
 use crate::print;
 use crate::report::{self, Reporter};
 use anyhow::{Context, Result};
-use fogbank::dataset::Store;
 use fogbank::plan::Plan;
 use fogbank::{Resources, Selection, SweepOptions, TableCache, Workers};
 use std::path::{Path, PathBuf};
@@ -44,7 +43,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<ExitCode> {
 
 /// Renders the selected frames; exit code 1 if one of them failed.
 pub(crate) fn render(plan: &Plan, options: &SweepOptions, work: &WorkArgs) -> Result<ExitCode> {
-    let cache = table_cache(work.cache_dir.as_deref())?;
+    let cache = TableCache::new(cache_dir(work.cache_dir.as_deref())?);
     let mut resources = Resources::new(cache).with_denoiser(denoiser(work.oidn.as_deref()));
     let reporter = Reporter::new(work.quiet);
     let json = JsonLog::new();
@@ -74,17 +73,6 @@ pub(crate) fn threads(work: &WorkArgs) -> usize {
 fn denoiser(asked: Option<&Path>) -> Option<PathBuf> {
     let named = || std::env::var_os("FOGBANK_OIDN").filter(|v| !v.is_empty()).map(PathBuf::from);
     asked.map(Path::to_owned).or_else(named)
-}
-
-/// The tables in the folder asked for, or in an object store with the usual folder before it.
-pub(crate) fn table_cache(asked: Option<&Path>) -> Result<TableCache> {
-    match asked.filter(|place| Store::is_remote(place)) {
-        None => Ok(TableCache::new(cache_dir(asked)?)),
-        Some(place) => {
-            let shared = Store::at(place).map_err(fogbank::Error::from)?;
-            Ok(TableCache::new(cache_dir(None)?).backed_by(shared))
-        }
-    }
 }
 
 /// The folder asked for, or [`fogbank::default_cache_dir`].

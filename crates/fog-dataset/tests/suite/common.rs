@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fog_dataset::{
     Attribute, CameraPicture, ClearPicture, DataSet, DataSetInfo, DenoisedPicture, FrameFiles, Opening,
-    OutputSet, PlanFrame, Planned, Result, Store, View,
+    OutputSet, PlanFrame, Result, View,
 };
 use fog_film::{Channels, Frame, GroupLayer, PixelFilm, SurfaceTruth, Truth};
 use serde_json::{Map, Value, json};
@@ -82,19 +82,16 @@ pub(crate) fn planned(id: &str, outputs: OutputSet) -> PlanFrame {
 /// Opens a data set with the given configuration; the difference of two is their whole text.
 pub(crate) fn open_with(dir: &Path, config: &str, code: &str, plan: Vec<PlanFrame>) -> Result<DataSet> {
     let digest = format!("digest of {config}");
-    let mut planned = Planned::default();
-    plan.iter().try_for_each(|frame| planned.push(frame))?;
     let info = DataSetInfo {
         name: "test",
         config_yaml: config,
         config_digest: &digest,
         code_digest: code,
-        plan: planned,
-        frames: &|each| plan.iter().try_for_each(each),
+        plan,
         classes: Some(&json!([{ "id": 7, "name": "road" }])),
         details: &json!({ "title": "a test" }),
     };
-    DataSet::create_or_open(Store::at(dir)?, info, Opening::Resume, &|old| {
+    DataSet::create_or_open(dir, info, Opening::Resume, &|old| {
         vec![format!("{} -> {}", old.trim(), config.trim())]
     })
 }

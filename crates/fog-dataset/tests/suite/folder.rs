@@ -104,7 +104,7 @@ fn a_folder_that_cannot_be_is_named() {
 fn a_lost_folder_is_named() {
     let dir = tempfile::tempdir().expect("temporary folder");
     let set = open(&dir.path().join("set"), 1);
-    fs::remove_dir_all(set.store().place()).expect("removed");
+    fs::remove_dir_all(set.dir()).expect("removed");
     let e = store(&set, "f0", &frame(4, 4, Channels::Rgb, 1)).expect_err("refused").to_string();
     assert!(e.contains("f0.rgb.png") && e.contains("os error 2"), "{e}");
     assert!(set.finish().is_err() && !set.is_done("f0"));
@@ -140,7 +140,7 @@ fn a_full_disk_is_named_and_leaves_nothing_half() {
     assert!(e.contains("f0.hdr.exr") && e.contains("No space left on device"), "{e}");
     assert!(!set.is_done("f0"));
     let names: Vec<_> =
-        fs::read_dir(set.store().place()).expect("a folder").map(|e| e.expect("entry").file_name()).collect();
+        fs::read_dir(set.dir()).expect("a folder").map(|e| e.expect("entry").file_name()).collect();
     assert!(names.iter().all(|n| n != "f0.hdr.exr" && !n.to_string_lossy().ends_with(".tmp")), "{names:?}");
     // The other frames still fit.
     store(&set, "f1", &frame(8, 4, Channels::Rgb, 4)).expect("fits");

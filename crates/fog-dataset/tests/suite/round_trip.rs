@@ -23,7 +23,7 @@ fn same(stored: &StoredFrame, name: &str, want: impl Fn(usize) -> f32) {
 
 fn stored(set: &DataSet, f: &Frame) -> StoredFrame {
     store(set, "f0", f).expect("written");
-    read_frame(set.store().place(), "f0").expect("read")
+    read_frame(set.dir(), "f0").expect("read")
 }
 
 #[test]
@@ -32,8 +32,8 @@ fn rasters_are_alike_stored_and_not() {
     for (folder, channels, components) in [("rgb", Channels::Rgb, 3), ("mono", MONO, 1)] {
         let (set, f) = (open(&dir.path().join(folder), 1), frame(5, 4, channels, 4));
         store(&set, "f0", &f).expect("written");
-        let reader = Reader::open(set.store().place()).expect("a data set");
-        let mut planned = read_plan(set.store().place()).expect("a plan").remove(0);
+        let reader = Reader::open(set.dir()).expect("a data set");
+        let mut planned = set.plan()[0].clone();
         planned.spec = json!({"lighting": {"groups": [{"name": "lamps"}, {"name": "rest"}]}});
         let unstored = with_files("f0", &f, 1.5, |files| Raster::of_frame(files, planned.outputs));
         let names = raster_names(&planned);
@@ -267,7 +267,7 @@ fn marker_timing_and_headers_say_what_they_should() {
 
     let header = read_header(dir.path()).expect("a header");
     assert_eq!((header.name.as_str(), header.frames), ("test", 1));
-    assert_eq!(read_plan(dir.path()).expect("a plan").len(), set.frames().len());
+    assert_eq!(read_plan(dir.path()).expect("a plan"), set.plan());
     assert!(read_frame(dir.path(), "../f0").is_err());
 }
 

@@ -95,8 +95,6 @@ impl<'a> Pool<'a> {
             lanes.clear();
             child::work(job, resources, threads, tasks, events);
         };
-        // Neither connections nor the threads that look up addresses may be there when a process is forked.
-        job.data_set.store().disconnect();
         Child::fork(work).map_err(|e| Error::Workers(e.to_string()))
     }
 

@@ -1,4 +1,4 @@
-//! A folder: files that appear only when whole, and removal of what killed writers left.
+//! Files that appear only when whole, and removal of what killed writers left.
 //!
 //! A file is written under a temporary name in its own folder (`.fogbank-<random>.tmp`), synced, and renamed. While it
 //! lives its writer holds an exclusive lock on it, which the system releases when the process dies however it dies. So a
@@ -7,92 +7,81 @@
 //! untouched for a day are removed.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::time::Duration;
 
 use tempfile::NamedTempFile;
+
+use crate::{Error, Result};
 
 const PREFIX: &str = ".fogbank-";
 const SUFFIX: &str = ".tmp";
 const ABANDONED_AFTER: Duration = Duration::from_secs(24 * 3600);
 
 /// Writes `dir/name` whole, replacing what is there. The rename is durable after [`sync_dir`].
-pub(super) fn write(dir: &Path, name: &str, bytes: &[u8]) -> io::Result<()> {
-    let mut temp = temporary(dir)?;
-    temp.write_all(bytes)?;
-    keep(temp, &dir.join(name))
+pub(crate) fn write(dir: &Path, name: &str, bytes: &[u8]) -> Result<()> {
+    let path = dir.join(name);
+    let temp = filled(dir, bytes).map_err(Error::io("write", &path))?;
+    temp.persist(&path).map(drop).map_err(|e| e.error).map_err(Error::io("write", &path))
 }
 
 /// Writes `dir/name` whole unless it exists; returns whether it was written.
-pub(super) fn write_new(dir: &Path, name: &str, bytes: &[u8]) -> io::Result<bool> {
-    let mut temp = temporary(dir)?;
-    temp.write_all(bytes)?;
-    temp.as_file().sync_all()?;
-    match temp.persist_noclobber(dir.join(name)) {
+pub(crate) fn write_new(dir: &Path, name: &str, bytes: &[u8]) -> Result<bool> {
+    let path = dir.join(name);
+    let temp = filled(dir, bytes).map_err(Error::io("write", &path))?;
+    match temp.persist_noclobber(&path) {
         Ok(_) => Ok(true),
         Err(e) if e.error.kind() == ErrorKind::AlreadyExists => Ok(false),
-        Err(e) => Err(e.error),
+        Err(e) => Err(Error::io("write", &path)(e.error)),
     }
 }
 
-/// Gives a temporary its name when its content is on the disk.
-pub(super) fn keep(temp: NamedTempFile, path: &Path) -> io::Result<()> {
-    temp.as_file().sync_all()?;
-    temp.persist(path).map(drop).map_err(|e| e.error)
-}
-
-/// An empty temporary, locked; removed again when dropped.
-pub(super) fn temporary(dir: &Path) -> io::Result<NamedTempFile> {
+/// A synced temporary with the given content, removed again when dropped or when writing fails.
+fn filled(dir: &Path, bytes: &[u8]) -> std::io::Result<NamedTempFile> {
     loop {
         let mut builder = tempfile::Builder::new();
         builder.prefix(PREFIX).suffix(SUFFIX);
         // As any new file: what the umask leaves, not the owner-only mode of temporaries.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let temp = builder.tempfile_in(dir)?;
+        let mut temp = builder.tempfile_in(dir)?;
         // A file system without locks fails here; see `remove_if_abandoned`.
         let locked = temp.as_file().lock().is_ok();
-        if !locked || temp.path().exists() {
-            return Ok(temp);
+        if locked && !temp.path().exists() {
+            continue;
         }
+        temp.write_all(bytes)?;
+        temp.as_file().sync_all()?;
+        return Ok(temp);
     }
 }
 
 /// Makes the renames in a folder durable.
-pub(super) fn sync_dir(dir: &Path) -> io::Result<()> {
-    if cfg!(unix) { File::open(dir)?.sync_all() } else { Ok(()) }
-}
-
-/// Removes a file; it is no error if there is none.
-pub(super) fn remove(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
-        Err(e) if e.kind() != ErrorKind::NotFound => Err(e),
-        _ => Ok(()),
-    }
-}
-
-/// Gives the names in a folder one by one, but for temporaries of ours.
-pub(super) fn list(dir: &Path, each: &mut dyn FnMut(&str)) -> io::Result<()> {
-    for entry in fs::read_dir(dir)? {
-        let name = entry?.file_name();
-        let name = name.to_string_lossy();
-        if !is_temporary(&name) {
-            each(&name);
-        }
+pub(crate) fn sync_dir(dir: &Path) -> Result<()> {
+    if cfg!(unix) {
+        File::open(dir).and_then(|d| d.sync_all()).map_err(Error::io("sync", dir))?;
     }
     Ok(())
 }
 
+/// Removes a file; it is no error if there is none.
+pub(crate) fn remove(path: &Path) -> Result<()> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove", path)(e)),
+        _ => Ok(()),
+    }
+}
+
 /// Whether a file name is that of a temporary of ours.
-fn is_temporary(name: &str) -> bool {
+pub(crate) fn is_temporary(name: &str) -> bool {
     name.len() > PREFIX.len() + SUFFIX.len() && name.starts_with(PREFIX) && name.ends_with(SUFFIX)
 }
 
 /// Removes the temporaries that dead writers left in a folder.
-pub(super) fn remove_abandoned(dir: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(dir)? {
-        let entry = entry?;
+pub(crate) fn remove_abandoned(dir: &Path) -> Result<()> {
+    for entry in fs::read_dir(dir).map_err(Error::io("list", dir))? {
+        let entry = entry.map_err(Error::io("list", dir))?;
         if entry.file_name().to_str().is_some_and(is_temporary) {
             remove_if_abandoned(&entry.path())?;
         }
@@ -101,7 +90,7 @@ pub(super) fn remove_abandoned(dir: &Path) -> io::Result<()> {
 }
 
 /// Removes one temporary if no process writes it any more; its lock is held until it is gone.
-fn remove_if_abandoned(path: &Path) -> io::Result<()> {
+fn remove_if_abandoned(path: &Path) -> Result<()> {
     let Ok(file) = File::options().read(true).write(true).open(path) else { return Ok(()) };
     let abandoned = match file.try_lock() {
         Ok(()) => true,
@@ -133,7 +122,7 @@ mod tests {
     #[test]
     fn only_unlocked_temporaries_of_ours_are_removed() {
         let dir = tempfile::tempdir().expect("temporary folder");
-        let live = temporary(dir.path()).expect("a file");
+        let live = filled(dir.path(), b"being written").expect("write");
         fs::write(dir.path().join(".fogbank-dead.tmp"), b"half").expect("write");
         fs::write(dir.path().join("other.tmp"), b"theirs").expect("write");
         remove_abandoned(dir.path()).expect("clean");
