@@ -53,6 +53,15 @@ impl FrameState {
             Self::Missing => "missing",
         }
     }
+
+    /// Of a frame in a folder that is done or not: then there may be a failure of it.
+    pub(crate) fn of(is_done: bool, dir: &Path, id: &str) -> Self {
+        match is_done {
+            true => Self::Done,
+            false if dir.join(Kind::Failed.file(id)).is_file() => Self::Failed,
+            false => Self::Missing,
+        }
+    }
 }
 
 /// Numbers of frames by state.
@@ -182,23 +191,13 @@ impl DataSet {
     }
 
     fn is_complete(&self, id: &str, check: Check) -> bool {
-        let Ok(frame) = self.frame(id) else { return false };
-        let Ok(Some(marker)) = Marker::read(&self.dir, id) else { return false };
-        self.header.takes(&marker.config_digest)
-            && marker.code_digest == self.header.code_digest
-            && marker.faults(&self.dir, frame.outputs, check).is_empty()
+        self.frame(id).is_ok_and(|frame| self.header.is_complete(&self.dir, frame, check))
     }
 
     /// Whether the frame is done, failed or neither.
     #[must_use]
     pub fn state(&self, id: &str) -> FrameState {
-        if self.is_done(id) {
-            FrameState::Done
-        } else if self.dir.join(Kind::Failed.file(id)).is_file() {
-            FrameState::Failed
-        } else {
-            FrameState::Missing
-        }
+        FrameState::of(self.is_done(id), &self.dir, id)
     }
 
     /// States of all frames, in plan order.

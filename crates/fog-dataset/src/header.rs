@@ -6,8 +6,10 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::marker::{Check, Marker};
 use crate::names::HEADER;
-use crate::{Error, FileEntry, Result};
+use crate::verify::foreign;
+use crate::{Error, FileEntry, PlanFrame, Result};
 
 /// Value of [`Header::format`].
 pub const FORMAT: &str = "fogbank-dataset";
@@ -49,6 +51,15 @@ impl Header {
     /// Whether a frame made from this configuration belongs to the data set.
     pub(crate) fn takes(&self, config_digest: &str) -> bool {
         self.config_digest == config_digest || self.extends.iter().any(|digest| digest == config_digest)
+    }
+
+    /// Whether a frame is done: its marker is of this data set, and its files are there as the marker says.
+    pub(crate) fn is_complete(&self, dir: &Path, frame: &PlanFrame, check: Check) -> bool {
+        Marker::read(dir, &frame.id).is_ok_and(|marker| {
+            marker.is_some_and(|marker| {
+                foreign(&marker, self).is_empty() && marker.faults(dir, frame.outputs, check).is_empty()
+            })
+        })
     }
 
     /// Reads `dataset.json`; `None` when there is none.

@@ -1,7 +1,8 @@
 //! The frames of a data set, as lines of `plan.jsonl`.
 
 use std::collections::HashSet;
-use std::fs;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -62,12 +63,20 @@ pub(crate) fn to_lines(plan: &[PlanFrame], dir: &Path) -> Result<String> {
 /// The frames of a data set, from its `plan.jsonl`.
 ///
 /// # Errors
-/// [`Error::Io`] when it cannot be read, [`Error::Damaged`] naming the line that is no frame.
+/// As [`lines`].
 pub(crate) fn read(dir: &Path) -> Result<Vec<PlanFrame>> {
+    lines(dir)?.collect()
+}
+
+/// The same line by line.
+///
+/// # Errors
+/// [`Error::Io`] when it cannot be read; the items are [`Error::Damaged`] naming a line that is no frame.
+pub(crate) fn lines(dir: &Path) -> Result<impl Iterator<Item = Result<PlanFrame>> + use<>> {
     let path = dir.join(PLAN);
-    let text = fs::read_to_string(&path).map_err(Error::io("read", &path))?;
-    let parse = |(i, line)| {
-        serde_json::from_str(line).map_err(|e| Error::damaged(&path)(format!("line {}: {e}", i + 1)))
-    };
-    text.lines().enumerate().map(parse).collect()
+    let lines = BufReader::new(File::open(&path).map_err(Error::io("read", &path))?).lines();
+    Ok(lines.enumerate().map(move |(i, line)| {
+        let line = line.map_err(Error::io("read", &path))?;
+        serde_json::from_str(&line).map_err(|e| Error::damaged(&path)(format!("line {}: {e}", i + 1)))
+    }))
 }

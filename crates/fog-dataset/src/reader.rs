@@ -2,17 +2,17 @@
 //! is asked for, and not the plan: a data set may have millions of them.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{BufRead, BufReader};
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use image::{DynamicImage, ImageReader};
 use serde_json::Value;
 
 use crate::header::Header;
 use crate::marker::{Check, FileEntry, Marker};
-use crate::names::{CLASSES, PLAN, check_id};
-use crate::{Channel, Error, FileKind, FrameState, PlanFrame, Result, read_exr_channels, read_header};
+use crate::names::{CLASSES, check_id};
+use crate::{
+    Channel, Error, FileKind, FrameState, PlanFrame, Result, Values, plan, read_exr_channels, read_header,
+};
 
 /// An open data set that is only read.
 #[derive(Clone, Debug)]
@@ -59,13 +59,8 @@ impl Reader {
     /// [`Error::Io`] when `plan.jsonl` cannot be read; the items are [`Error::Damaged`] naming a line that is no frame, and
     /// [`Error::BadId`].
     pub fn frames(&self) -> Result<impl Iterator<Item = Result<PlanFrame>> + use<>> {
-        let path = self.dir.join(PLAN);
-        let lines = BufReader::new(File::open(&path).map_err(Error::io("read", &path))?).lines();
-        Ok(lines.enumerate().map(move |(i, line)| {
-            let line = line.map_err(Error::io("read", &path))?;
-            let parsed = serde_json::from_str(&line);
-            let frame: PlanFrame =
-                parsed.map_err(|e| Error::damaged(&path)(format!("line {}: {e}", i + 1)))?;
+        Ok(plan::lines(&self.dir)?.map(|frame| {
+            let frame = frame?;
             check_id(&frame.id)?;
             Ok(frame)
         }))
@@ -75,16 +70,8 @@ impl Reader {
     /// or neither.
     #[must_use]
     pub fn state(&self, frame: &PlanFrame) -> FrameState {
-        let of_this = |marker: &Marker| {
-            self.header.takes(&marker.config_digest) && marker.code_digest == self.header.code_digest
-        };
-        match Marker::read(&self.dir, &frame.id) {
-            Ok(Some(m)) if of_this(&m) && m.faults(&self.dir, frame.outputs, Check::Size).is_empty() => {
-                FrameState::Done
-            }
-            _ if self.path(frame, FileKind::Failed).is_file() => FrameState::Failed,
-            _ => FrameState::Missing,
-        }
+        let is_done = self.header.is_complete(&self.dir, frame, Check::Size);
+        FrameState::of(is_done, &self.dir, &frame.id)
     }
 
     /// Names, sizes and hashes of a finished frame's files, but for timings and a denoised picture.
@@ -123,15 +110,12 @@ impl Reader {
     /// # Errors
     /// [`Error::Io`] when it cannot be read, [`Error::Picture`] when it is no grey PNG of 8 or 16 bits.
     pub fn mask(&self, frame: &PlanFrame, kind: FileKind) -> Result<Mask> {
-        let path = self.path(frame, kind);
-        let reader = ImageReader::open(&path).map_err(Error::io("open", &path))?;
-        let (width, height, values) = match reader.decode().map_err(Error::picture("decode", &path))? {
-            DynamicImage::ImageLuma8(p) => (p.width(), p.height(), p.iter().map(|&v| u16::from(v)).collect()),
-            DynamicImage::ImageLuma16(p) => (p.width(), p.height(), p.into_raw()),
-            other => {
-                let found = format!("it has {:?} pixels instead of grey ones", other.color());
-                return Err(Error::picture("decode", &path)(found));
-            }
+        let raster = self.raster(frame, kind)?;
+        let (width, height) = (raster.width, raster.height);
+        let values = match raster.values {
+            Values::U8(values) if raster.components == 1 => values.into_iter().map(u16::from).collect(),
+            Values::U16(values) => values,
+            _ => return Err(Error::picture("decode", &self.path(frame, kind))("its pixels are not grey")),
         };
         Ok(Mask { width, height, values })
     }

@@ -61,12 +61,8 @@ pub fn verify(dir: &Path) -> Result<Report> {
             }
             Err(e) => return Err(e),
         };
-        let failed = || dir.join(Kind::Failed.file(&frame.id)).is_file();
-        states.push(match &faults {
-            Some(faults) if faults.is_empty() => FrameState::Done,
-            _ if failed() => FrameState::Failed,
-            _ => FrameState::Missing,
-        });
+        let is_done = faults.as_ref().is_some_and(Vec::is_empty);
+        states.push(FrameState::of(is_done, dir, &frame.id));
         for (file, reason) in faults.into_iter().flatten() {
             report.problems.push(Problem { frame: Some(frame.id.clone()), file, reason });
         }

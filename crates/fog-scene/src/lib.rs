@@ -30,6 +30,7 @@ pub mod bsdf;
 pub mod camera;
 pub mod cie_sky;
 pub mod dome;
+pub mod emission;
 pub mod emitters;
 pub mod ies;
 pub mod labels;

@@ -2,7 +2,8 @@
 
 use crate::bsdf::Bsdf;
 use crate::bvh::Hit;
-use crate::emitters::{Breadth, EmitterTriangle, Emitters, pieces};
+use crate::emission::find_emitters;
+use crate::emitters::Emitters;
 use crate::gltf_load::LoadedScene;
 use crate::lamp::{Beam, Lamp, LampTree};
 use crate::light::{Environment, Sun};
@@ -10,7 +11,7 @@ use crate::light_groups::{Grouping, LightGroups, LightSource};
 use crate::material::AlphaMode;
 use crate::medium::{LateMedium, Medium};
 use crate::sky_map::SkyMap;
-use crate::triangle::{SurfacePoint, Triangle};
+use crate::triangle::SurfacePoint;
 use crate::twins::Twins;
 use fog_core::colour::{Rgb, upsample};
 use fog_core::spectrum::Spectrum;
@@ -32,8 +33,7 @@ pub struct Scene {
     pub sky: Option<SkyMap>,
     /// Sun, if any.
     pub sun: Option<Sun>,
-    emitters: Emitters,
-    twins: Twins,
+    emitters: Arc<Emitters>,
     lamps: LampTree,
     beams: Vec<Beam>,
     /// Relative radiance of 1 cd/m² in the scene file.
@@ -62,17 +62,6 @@ pub struct Surface {
 /// Largest share of light that counts as having passed before a surface is met, so that something is left to divide by.
 const LARGEST_CLEAR: f32 = 0.999_999;
 
-/// Parts of a triangle's edge by whose middles a textured emission is averaged.
-const POWER_GRID: u32 = 24;
-/// Pieces of an edge into which a triangle is cut whose emission varies, where emitting triangles are few ...
-const FINEST_PIECES: u32 = 8;
-/// ... up to this number. Beyond it half as many ...
-const FEW_EMITTERS: usize = 2_000;
-/// ... and beyond this none: there are then pieces enough.
-const MANY_EMITTERS: usize = 20_000;
-/// Greatest radiance of a piece over the triangle's mean from which on it pays to tell the pieces apart.
-const CONTRAST: f32 = 1.5;
-
 impl Scene {
     /// Puts a frame's scene together; `scene_emitters` switches the emission of all materials and the lights of the scene
     /// file. Its photometric units are taken for relative ones: 1 cd/m² for the radiance 1, and so on (see
@@ -85,8 +74,7 @@ impl Scene {
         sun: Option<Sun>,
         scene_emitters: bool,
     ) -> Self {
-        let emitters = if scene_emitters { find_emitters(&loaded, None) } else { Emitters::default() };
-        let twins = find_twins(&loaded, &emitters);
+        let emitters = if scene_emitters { loaded.emission.emitters(&loaded) } else { Arc::default() };
         let mut scene = Self {
             loaded,
             medium,
@@ -95,7 +83,6 @@ impl Scene {
             sky: None,
             sun,
             emitters,
-            twins,
             lamps: LampTree::default(),
             beams: Vec::new(),
             of_one_nit: 1.0,
@@ -169,7 +156,7 @@ impl Scene {
         }
         let even = (0..grouping.groups.names().len()).all(|group| intensity(group) == 1.0);
         if !(even || self.emitters.is_empty()) {
-            self.emitters = find_emitters(&self.loaded, Some(&grouping));
+            self.emitters = Arc::new(find_emitters(&self.loaded, Some(&grouping)));
         }
         self.grouping = Some(grouping);
         if !(self.lamps.lights().is_empty() && self.beams.is_empty()) {
@@ -287,8 +274,8 @@ impl Scene {
 
     /// Places on broad emitters that shine differently, in pairs; none where some surfaces are passed by chance.
     #[must_use]
-    pub fn twins(&self) -> &Twins {
-        &self.twins
+    pub fn twins(&self) -> Arc<Twins> {
+        if self.emitters.is_empty() { Arc::default() } else { self.loaded.emission.twins(&self.loaded) }
     }
 
     /// Closest surface along a ray before `t_max`; blended surfaces are there where they cover at least half, and glass is
@@ -400,66 +387,4 @@ fn tangent_frame(point: &SurfacePoint, tangent: Option<[f32; 4]>) -> Option<Mat3
     let along = Vec3A::new(x, y, z);
     let tangent = (along - normal * normal.dot(along)).try_normalize()?;
     Some(Mat3A::from_cols(tangent, normal.cross(tangent) * 1.0f32.copysign(sign), normal))
-}
-
-/// All triangles whose material emits, with the radiance of their pieces.
-fn find_emitters(loaded: &LoadedScene, grouping: Option<&Grouping>) -> Emitters {
-    let all = loaded.geometry.triangles();
-    let material = |t: &Triangle| &loaded.materials[t.material as usize];
-    let emitting = || all.iter().enumerate().filter(|(_, t)| material(t).is_emissive());
-    let finest = match emitting().count() {
-        ..=FEW_EMITTERS => FINEST_PIECES,
-        n if n <= MANY_EMITTERS => FINEST_PIECES / 2,
-        _ => 1,
-    };
-    let triangles: Vec<_> = emitting()
-        .map(|(id, triangle)| {
-            let material = material(triangle);
-            // Red, green and blue count alike, for all must be found.
-            let radiance = |[u, v]: [f32; 2]| {
-                let uv = triangle.uv_at(u, v);
-                let rgb = material.emission(&loaded.textures, &uv);
-                rgb.iter().sum::<f32>() * material.coverage(&loaded.textures, &uv, 1.0)
-            };
-            let even = material.emissive_texture.is_none() && material.alpha_mode == AlphaMode::Opaque;
-            let per_edge = if even { 1 } else { finest };
-            let steps = if even { 1 } else { (POWER_GRID / per_edge).min(POWER_GRID / 2) };
-            let mut means: Vec<f32> =
-                pieces(per_edge).map(|corners| mean(corners, steps, radiance)).collect();
-            let whole = means.iter().sum::<f32>() / means.len() as f32;
-            let varies = means.iter().any(|&m| m > CONTRAST * whole);
-            if !varies {
-                means = vec![whole];
-            }
-            let group = |g: &Grouping| g.groups.intensity(g.of_surface(triangle.object, triangle.material));
-            let intensity = grouping.map_or(1.0, group);
-            EmitterTriangle {
-                triangle: id as u32,
-                corners: triangle.positions.map(Vec3A::from),
-                two_sided: material.double_sided,
-                per_edge: if varies { per_edge } else { 1 },
-                radiance: means.into_iter().map(|m| m * intensity).collect(),
-            }
-        })
-        .collect();
-    Emitters::new(&triangles, all.len())
-}
-
-/// Pairs of places on the broad emitters of a scene that has not too many, and no surfaces that are passed by chance.
-fn find_twins(loaded: &LoadedScene, emitters: &Emitters) -> Twins {
-    let geometry = &loaded.geometry;
-    let broad = || emitters.triangles().filter(|&id| emitters.breadth(id) == Breadth::Broad);
-    if geometry.has_partial_opacity() || broad().nth(FEW_EMITTERS).is_some() {
-        return Twins::default();
-    }
-    Twins::new(broad(), geometry.triangles(), &loaded.materials, &loaded.textures)
-}
-
-/// Mean of `value` over the centres of `steps`² even parts of a triangle.
-fn mean(corners: [[f32; 2]; 3], steps: u32, value: impl Fn([f32; 2]) -> f32) -> f32 {
-    let [a, b, c] = corners;
-    let place = |[u, v]: [f32; 2]| [0, 1].map(|k| a[k] + (b[k] - a[k]) * u + (c[k] - a[k]) * v);
-    let centre = |[p, q, r]: [[f32; 2]; 3]| [0, 1].map(|k| (p[k] + q[k] + r[k]) / 3.0);
-    let sum: f32 = pieces(steps).map(|part| value(place(centre(part)))).sum();
-    sum / (steps * steps) as f32
 }

@@ -12,10 +12,12 @@ mod connect;
 mod glow;
 mod layer;
 mod patchy;
+mod surface_turn;
 mod told;
 mod twin;
 
 use self::glow::Flight;
+pub(crate) use self::surface_turn::{scatter_at_surface, turn_at_surface};
 use self::twin::Turn;
 use crate::equiangular::Segment;
 use crate::layer_light::{LayerLanes, LayerLight};
@@ -37,8 +39,10 @@ use fog_scene::light_groups::LightSource;
 use fog_scene::medium::{MediumLanes, MediumView};
 use fog_scene::phase::Scatterer;
 use fog_scene::phase_angles::PhaseAngles;
-use fog_scene::scene::{Scene, Surface};
+use fog_scene::scene::Scene;
 use fog_scene::sky_map::SkyLanes;
+use fog_scene::twins::Twins;
+use std::sync::Arc;
 
 /// Scatterings before Russian roulette may end a path.
 const ROULETTE_DEPTH: u32 = 3;
@@ -55,9 +59,6 @@ const ROULETTE_BELOW: f32 = 1.0;
 /// Paths that go on from the first collision where broad emitters are all the light: they fill the view of a droplet, and what
 /// tells is into how many directions one looks.
 const BRANCHES: u64 = 3;
-
-/// Largest f32 below 1.
-const BELOW_ONE: f32 = 1.0 - 0.5 * f32::EPSILON;
 
 /// A scene prepared for tracing paths.
 #[derive(Debug)]
@@ -78,8 +79,8 @@ pub struct PathTracer<'a> {
     pub(crate) branches: u64,
     /// Of the fog among lamps.
     phase_angles: Option<PhaseAngles>,
-    /// Whether paths look at the twins of what they run into.
-    twins: bool,
+    /// The twins of what paths run into, if they look at them.
+    twins: Option<Arc<Twins>>,
 }
 
 /// What one path saw.
@@ -195,7 +196,7 @@ impl<'a> PathTracer<'a> {
             layer_light,
             branches,
             phase_angles,
-            twins: twin::are_told(scene),
+            twins: twin::of_scene(scene),
         }
     }
 
@@ -315,7 +316,7 @@ impl<'a> PathTracer<'a> {
         out.radiance += self.lights_at_surface(path, &surface, lanes, rng, watch);
         let before = path.direction;
         let scattered = scatter_at_surface(path, &surface, rng);
-        if self.twins {
+        if self.twins.is_some() {
             path.turn = Turn::at_surface(&surface);
         }
         watch.see(|| if scattered { path.turned(before) } else { Step::Absorbed });
@@ -475,7 +476,7 @@ impl<'a> PathTracer<'a> {
             path.r_u *= value.density * inverse;
             path.beta *= value.phase * inverse;
         }
-        if self.twins {
+        if self.twins.is_some() {
             path.turn = Turn::Droplet { before: path.direction, row: scatterer.row };
         }
         path.direction = direction;
@@ -570,40 +571,4 @@ impl Path {
         let (direction, depth) = (self.direction, self.depth);
         Step::Turn { direction, cosine: before.dot(direction), depth, weights: self.weights() }
     }
-}
-
-/// How a surface turns a path.
-pub(crate) struct SurfaceTurn {
-    /// The surface's point, from where lights are chosen.
-    pub(crate) vertex: Vec3A,
-    pub(crate) origin: Vec3A,
-    pub(crate) direction: Vec3A,
-    /// BSDF times cosine over `pdf`.
-    pub(crate) weight: Spectrum,
-    /// Density of the direction in 1/sr.
-    pub(crate) pdf: f32,
-}
-
-/// Draws how a path along `direction` is reflected at a surface or sent through; `None` if it ends there.
-#[inline(always)]
-pub(crate) fn turn_at_surface(direction: Vec3A, surface: &Surface, rng: &mut PathRng) -> Option<SurfaceTurn> {
-    let wo = surface.world_from_shading.transpose() * -direction;
-    let (u, v) = rng.turn();
-    let sample = surface.bsdf.as_ref()?.sample(wo, rng.uniform(), [(u as f32).min(BELOW_ONE), v])?;
-    let direction = (surface.world_from_shading * sample.wi).normalize();
-    if direction.dot(surface.normal) * sample.wi.z <= 0.0 {
-        return None;
-    }
-    let (vertex, origin) = (surface.point.position, surface.point.spawn_origin(direction));
-    Some(SurfaceTurn { vertex, origin, direction, weight: sample.weight, pdf: sample.pdf })
-}
-
-/// Reflects the path at a surface or sends it through; false if it ends there.
-pub(crate) fn scatter_at_surface(path: &mut Path, surface: &Surface, rng: &mut PathRng) -> bool {
-    let Some(turn) = turn_at_surface(path.direction, surface, rng) else { return false };
-    path.beta *= turn.weight;
-    path.r_l = path.r_u * (1.0 / turn.pdf);
-    (path.vertex, path.origin, path.direction) = (turn.vertex, turn.origin, turn.direction);
-    path.depth += 1;
-    !path.beta.is_zero()
 }

@@ -17,6 +17,7 @@ mod tangents;
 mod uri;
 
 use crate::animation::Animation;
+use crate::emission::Emission;
 use crate::error::{Failure, SceneError, SceneErrorKind};
 use crate::geometry::Geometry;
 use crate::lamp::{LightNames, PunctualLights};
@@ -107,6 +108,8 @@ pub struct LoadedScene {
     pub time_s: f64,
     /// What moves; none where nothing does.
     pub animation: Option<Arc<Animation>>,
+    /// What is known of its emission.
+    pub emission: Emission,
     /// What was left out or is not supported, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -298,6 +301,7 @@ impl SceneFile {
             time_s,
             animation,
             extras: nodes::scene_extras(document),
+            emission: Emission::default(),
             warnings: warnings.0,
         })
     }

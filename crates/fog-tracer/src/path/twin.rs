@@ -10,6 +10,8 @@ use fog_core::colour::upsample;
 use fog_core::spectrum::Spectrum;
 use fog_scene::Hit;
 use fog_scene::scene::{Scene, Surface};
+use fog_scene::twins::Twins;
+use std::sync::Arc;
 
 /// Largest ratio of the densities of twins up to which both are looked at. It must hold from either side.
 const LARGEST_RATIO: f32 = 16.0;
@@ -39,11 +41,11 @@ impl Turn {
     }
 }
 
-/// Whether the turns of paths in a scene can be told at all.
-pub(super) fn are_told(scene: &Scene) -> bool {
+/// The twins of a scene, if there are any and the turns of paths can be told.
+pub(super) fn of_scene(scene: &Scene) -> Option<Arc<Twins>> {
     // The sun changes how fog turns paths.
-    let told = scene.medium.as_ref().is_none_or(|medium| medium.can_share());
-    told && scene.sun.is_none() && !scene.twins().is_empty()
+    let told = scene.sun.is_none() && scene.medium.as_ref().is_none_or(|medium| medium.can_share());
+    told.then(|| scene.twins()).filter(|twins| !twins.is_empty())
 }
 
 impl PathTracer<'_> {
@@ -62,7 +64,7 @@ impl PathTracer<'_> {
 
     #[inline]
     fn twin(&self, path: &Path, hit: &Hit) -> Option<[f32; 2]> {
-        if matches!(path.turn, Turn::Untold) { None } else { self.scene.twins().of(hit) }
+        if matches!(path.turn, Turn::Untold) { None } else { self.twins.as_ref()?.of(hit) }
     }
 
     #[inline]
