@@ -7,6 +7,7 @@ mod args;
 mod commands;
 mod json_log;
 mod listener;
+mod pace;
 mod print;
 mod report;
 mod rows;

@@ -1,19 +1,18 @@
 //! What the user sees while the work goes on: the plan, a progress bar with ETA on a terminal, lines elsewhere.
 
+use crate::pace::{self, Pace};
 use crate::print;
 use anyhow::Result;
 use fogbank::plan::Plan;
 use fogbank::{Event, Progress, TableOrigin};
-use indicatif::{HumanBytes, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal, Write};
+use indicatif::{HumanBytes, HumanDuration, ProgressBar};
+use std::io::Write;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Paths per second and thread that an estimate before rendering counts with: the quickstart's mean where it was measured
 /// (README). The bar's ETA takes over once paths are traced.
 const NOMINAL_PATHS_PER_SECOND: f64 = 70_000.0;
-/// Seconds between progress lines where no terminal shows a bar.
-const LINE_SECONDS: u64 = 10;
 
 /// Longest plan whose every frame is looked at for its size; of longer ones as many, evenly spread.
 const LOOKED_AT: usize = 2000;
@@ -75,8 +74,7 @@ pub(crate) struct Reporter {
 
 /// State of the lines that stand in for the bar.
 struct Line {
-    started: Instant,
-    printed: Instant,
+    pace: Pace,
     paths: u64,
     total: u64,
     frames: usize,
@@ -85,11 +83,8 @@ struct Line {
 
 impl Reporter {
     pub(crate) fn new(quiet: bool) -> Self {
-        let visible = !quiet && std::io::stderr().is_terminal();
-        let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let now = Instant::now();
-        let line = Line { started: now, printed: now, paths: 0, total: 0, frames: 0, todo: 0 };
-        Self { quiet, bar: ProgressBar::with_draw_target(None, target), line: Mutex::new(line) }
+        let line = Line { pace: Pace::new(), paths: 0, total: 0, frames: 0, todo: 0 };
+        Self { quiet, bar: pace::bar(quiet), line: Mutex::new(line) }
     }
 
     /// Takes the bar off the screen.
@@ -108,12 +103,10 @@ impl Reporter {
         self.bar.inc(paths);
         let Ok(mut line) = self.line.lock() else { return };
         line.paths += paths;
-        if self.bar.is_hidden() && line.printed.elapsed().as_secs() >= LINE_SECONDS && line.paths < line.total
+        let share = line.paths as f64 / line.total as f64;
+        if self.bar.is_hidden()
+            && let Some(left) = line.pace.line(share)
         {
-            line.printed = Instant::now();
-            let share = line.paths as f64 / line.total as f64;
-            let left = line.started.elapsed().as_secs_f64() * (1.0 - share) / share;
-            let left = HumanDuration(Duration::from_secs_f64(left.max(1.0)));
             self.say(&format!(
                 "  {:.0} %, {} of {} frames, about {left} left",
                 100.0 * share,
@@ -124,14 +117,11 @@ impl Reporter {
     }
 
     fn begin(&self, paths: u64, todo: usize) {
-        let style = "  {bar:40} {percent:>3} % {msg} ETA {eta}";
-        let style = ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar());
         self.bar.reset();
-        self.bar.set_style(style);
+        self.bar.set_style(pace::style("  {bar:40} {percent:>3} % {msg} ETA {eta}"));
         self.bar.set_length(paths);
         if let Ok(mut line) = self.line.lock() {
-            let now = Instant::now();
-            *line = Line { started: now, printed: now, paths: 0, total: paths, frames: 0, todo };
+            *line = Line { pace: Pace::new(), paths: 0, total: paths, frames: 0, todo };
         }
     }
 

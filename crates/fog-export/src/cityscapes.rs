@@ -86,8 +86,7 @@ impl Writer for Cityscapes<'_> {
         let (folder, city, losses) = (self.job.folder, self.city(frame), self.job.losses);
         let core = format!("{city}_{:06}_{:06}", place.sequence, place.step);
         let path = |kind: &str, end: &str| format!("{kind}/{SPLIT}/{city}/{core}_{end}");
-        let right = self.rig.stereo.as_ref().is_some_and(|s| track::camera(frame.plan) == Some(&s.1));
-        if right {
+        if self.rig.is_right(frame.plan) {
             // Everything else is of the left picture.
             return folder.copy(&frame.path(FileKind::Image), &path("rightImg8bit", "rightImg8bit.png"));
         }
@@ -99,10 +98,10 @@ impl Writer for Cityscapes<'_> {
         png::rgba8(folder, &path("gtFine", "gtFine_color.png"), size, &labels.colours(&self.classes))?;
         let polygons = labels.polygons(&self.classes, losses);
         folder.write(&path("gtFine", "gtFine_polygons.json"), format!("{polygons}\n"))?;
-        let baseline = self.rig.stereo.as_ref().map(|s| s.2);
+        let baseline = self.rig.baseline_m();
         let text = format!("{:#}\n", camera_json(frame.record()?, &camera, baseline));
         folder.write(&path("camera", "camera.json"), text)?;
-        if let Some(baseline) = baseline.filter(|_| frame.outputs().depth) {
+        if baseline > 0.0 && frame.outputs().depth {
             self.disparity(frame, &camera, baseline, &path("disparity", "disparity.png"))?;
         }
         folder.write(&path("fogbank", "fogbank.json"), format!("{:#}\n", frame.details()?))
@@ -115,7 +114,7 @@ impl Writer for Cityscapes<'_> {
 
 /// Focal lengths and principal point; pose in the rig by ISO 8855 (x forward, y left, z up; yaw to the left, pitch down, roll to
 /// the right, in radians). A camera without a rig has the pitch and roll of its own.
-fn camera_json(record: &Value, camera: &Camera, baseline_m: Option<f64>) -> Value {
+fn camera_json(record: &Value, camera: &Camera, baseline_m: f64) -> Value {
     let mount = &record["rig"]["mount"];
     let in_rig = mount.is_object();
     let angle = |key: &str| {
@@ -126,7 +125,7 @@ fn camera_json(record: &Value, camera: &Camera, baseline_m: Option<f64>) -> Valu
     let [fx, fy, u0, v0] = camera.intrinsics;
     json!({
         "extrinsic": {
-            "baseline": baseline_m.unwrap_or_default(),
+            "baseline": baseline_m,
             "x": position(2),
             "y": 0.0 - position(0),
             "z": 0.0 - position(1),

@@ -1,9 +1,14 @@
 //! The classes of a data set.
 
+use std::ops::RangeInclusive;
+
 use serde_json::Value;
 
 use crate::job::Job;
 use crate::{Error, Result};
+
+/// Cityscapes' people and vehicles: the classes whose things it tells apart.
+pub(crate) const MOVERS: RangeInclusive<u64> = 24..=33;
 
 /// A class of `classes.json`.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -142,7 +142,7 @@ impl Writer for Coco<'_> {
                 category["keypoints"] = json!(names);
                 category["skeleton"] = json!([]);
             }
-            out.write(format!("{}\n{category}", if i == 0 { "" } else { "," }))?;
+            out.item(i == 0, category)?;
         }
         out.write("],\n\"images\":[")?;
         self.join(&mut out, IMAGES, &BTreeMap::new())?;
@@ -163,7 +163,7 @@ impl Coco<'_> {
             if !skeletons.is_empty() {
                 line = keypoints::padded(&line, skeletons).unwrap_or(line);
             }
-            out.write(format!("{}\n{line}", if i == 0 { "" } else { "," }))?;
+            out.item(i == 0, line)?;
         }
         fs::remove_file(&path).map_err(crate::Error::io("remove", &path))
     }

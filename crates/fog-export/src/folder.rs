@@ -183,6 +183,14 @@ impl Sink {
         self.file.write_all(bytes.as_ref()).map_err(Error::io("write", &self.path))
     }
 
+    /// Adds an item of a JSON list on a line of its own.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub(crate) fn item(&mut self, is_first: bool, item: impl std::fmt::Display) -> Result<()> {
+        self.write(format!("{}\n{item}", if is_first { "" } else { "," }))
+    }
+
     /// Writes what is still in memory. To be called at the end: dropping hides errors.
     ///
     /// # Errors

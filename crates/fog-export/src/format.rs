@@ -118,6 +118,12 @@ impl Format {
         self.entry().needs
     }
 
+    /// Whether it fills one file after another up to a size.
+    #[must_use]
+    pub fn is_sharded(self) -> bool {
+        matches!(self, Self::WebDataset | Self::HuggingFace)
+    }
+
     /// The format of a name.
     ///
     /// # Errors

@@ -7,13 +7,16 @@ use crate::frame::Frame;
 use crate::summary::Losses;
 use crate::{Format, Result};
 
+/// Size up to which a file of a format with shards is filled where nobody says otherwise, in MiB.
+pub const SHARD_SIZE_MIB: u32 = 1024;
+
 /// What the user may choose.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Options {
     /// Only things of these classes, by name; all if empty. Formats of label masks keep every class.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub classes: Vec<String>,
-    /// Size up to which a tar or Parquet file is filled, in MiB (1024 by default); one frame always fits.
+    /// Size up to which a tar or Parquet file is filled, in MiB ([`SHARD_SIZE_MIB`] by default); one frame always fits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shard_size_mib: Option<u32>,
     /// Export again, whatever export is in the folder.
@@ -24,7 +27,7 @@ pub struct Options {
 impl Options {
     /// Size up to which a file is filled, in bytes.
     pub(crate) fn shard_bytes(&self) -> u64 {
-        u64::from(self.shard_size_mib.unwrap_or(1024)) << 20
+        u64::from(self.shard_size_mib.unwrap_or(SHARD_SIZE_MIB)) << 20
     }
 }
 

@@ -52,12 +52,11 @@ impl<'a> Kitti<'a> {
         Ok(Self { job, classes, rig, track: Track::default(), ways: Vec::new() })
     }
 
-    /// The folder of a frame's camera (empty where there is one camera or a stereo pair), and whether it is the right one.
-    fn side(&self, frame: &Frame<'_>) -> (String, bool) {
+    /// The folder of a frame's camera; empty where there is one camera or a stereo pair.
+    fn root(&self, frame: &Frame<'_>) -> String {
         match (track::camera(frame.plan), &self.rig.stereo) {
-            (None, _) => (String::new(), false),
-            (Some(name), Some((_, right, _))) => (String::new(), name == right),
-            (Some(name), None) => (format!("{name}/"), false),
+            (Some(name), None) => format!("{name}/"),
+            _ => String::new(),
         }
     }
 
@@ -70,7 +69,7 @@ impl<'a> Kitti<'a> {
         place: Place,
         image: &str,
     ) -> Result<()> {
-        let baseline = self.rig.stereo.as_ref().map_or(0.0, |s| s.2);
+        let baseline = self.rig.baseline_m();
         // Where the left camera is, if this is the right one.
         let offset = if right { -baseline } else { 0.0 };
         let left = camera.world_from_camera * DMat4::from_translation([offset, 0.0, 0.0].into());
@@ -108,8 +107,9 @@ impl<'a> Kitti<'a> {
             way.times.write(format!("{time:e}\n"))?;
             way.poses.write(calib::row(&(way.start.inverse() * left)) + "\n")?;
         }
-        let side = if right { "image_3" } else { "image_2" };
-        let link = format!("{root}odometry/sequences/{:02}/{side}/{:06}.png", way.number, way.steps - 1);
+        let side = side(right);
+        let link =
+            format!("{root}odometry/sequences/{:02}/image_{side}/{:06}.png", way.number, way.steps - 1);
         let (from, to) = (self.job.folder.path(image)?, self.job.folder.path(&link)?);
         // One file under two names where the file system can.
         match fs::hard_link(&from, &to) {
@@ -117,6 +117,11 @@ impl<'a> Kitti<'a> {
             Err(_) => fs::copy(&from, &to).map(drop).map_err(Error::io("write", &to)),
         }
     }
+}
+
+/// KITTI's number of a colour camera.
+fn side(right: bool) -> u8 {
+    if right { 3 } else { 2 }
 }
 
 impl Way {
@@ -130,15 +135,15 @@ impl Writer for Kitti<'_> {
     fn frame(&mut self, frame: &Frame<'_>) -> Result<()> {
         let place = self.track.next(frame.plan);
         let camera = Camera::pinhole_of(frame, self.job)?;
-        let (root, right) = self.side(frame);
+        let (root, right) = (self.root(frame), self.rig.is_right(frame.plan));
+        let side = side(right);
         let (folder, losses) = (self.job.folder, self.job.losses);
         let name = format!("{:06}", place.pose);
         let training = format!("{root}training");
-        let image = format!("{training}/image_{}/{name}.png", if right { 3 } else { 2 });
+        let image = format!("{training}/image_{side}/{name}.png");
         folder.copy(&frame.path(FileKind::Image), &image)?;
         let mut meta = json!({ "frame": frame.details()? });
         if frame.outputs().depth {
-            let side = if right { 3 } else { 2 };
             depth::write(frame, folder, &format!("{training}/depth_{side}/{name}.png"), losses)?;
         }
         let objects = frame.objects()?;
@@ -148,11 +153,10 @@ impl Writer for Kitti<'_> {
         } else {
             let text: String = labels.iter().map(|label| label.line.clone() + "\n").collect();
             folder.write(&format!("{training}/label_2/{name}.txt"), text)?;
-            let baseline = self.rig.stereo.as_ref().map_or(0.0, |s| s.2);
-            folder.write(&format!("{training}/calib/{name}.txt"), calib::object(&camera, baseline))?;
+            let calibration = calib::object(&camera, self.rig.baseline_m());
+            folder.write(&format!("{training}/calib/{name}.txt"), calibration)?;
         }
         meta["labels"] = labels.into_iter().map(|label| label.more).collect();
-        let side = if right { 3 } else { 2 };
         folder.write(&format!("{training}/meta_{side}/{name}.json"), format!("{meta:#}\n"))?;
         if track::is_of_path(frame.plan) {
             self.odometry(frame, &camera, (&root, right), place, &image)?;

@@ -84,12 +84,21 @@ const OWN: [&str; 4] =
     ["fogbank_frame", "fogbank_mor_m", "fogbank_runway_detectable", "fogbank_runway_transmittance"];
 
 impl Edition {
+    /// Names of the corners in the columns: of the first edition as one meets them reading the image, of the second by their place
+    /// on the runway.
+    fn corners(self) -> [&'static str; 4] {
+        match self {
+            Self::V1 => ["A", "B", "C", "D"],
+            Self::V2 => ["TR", "TL", "BL", "BR"],
+        }
+    }
+
     fn columns(self) -> Vec<String> {
-        let (columns, corners): (&[&str], _) = match self {
-            Self::V1 => (&V1, ["A", "B", "C", "D"]),
-            Self::V2 => (&V2, ["TR", "TL", "BL", "BR"]),
+        let columns: &[&str] = match self {
+            Self::V1 => &V1,
+            Self::V2 => &V2,
         };
-        let corners = corners.iter().flat_map(|name| ["x", "y"].map(|c| format!("{c}_{name}")));
+        let corners = self.corners().into_iter().flat_map(|name| ["x", "y"].map(|c| format!("{c}_{name}")));
         let own = OWN.iter().map(ToString::to_string);
         columns.iter().map(ToString::to_string).chain(corners).chain(own).collect()
     }

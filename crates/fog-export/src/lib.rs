@@ -28,6 +28,6 @@ mod webdataset;
 
 pub use error::{Error, Result};
 pub use format::Format;
-pub use job::Options;
+pub use job::{Options, SHARD_SIZE_MIB};
 pub use run::{Progress, export};
 pub use summary::{Loss, Summary};

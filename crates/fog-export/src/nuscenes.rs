@@ -13,7 +13,7 @@ use fog_dataset::FileKind;
 use serde_json::{Value, json};
 
 use crate::camera::{Box3, Camera};
-use crate::classes::Classes;
+use crate::classes::{Classes, MOVERS};
 use crate::frame::Frame;
 use crate::job::{Job, Writer};
 use crate::track::{self, Place, Track};
@@ -27,8 +27,6 @@ pub(crate) const NEEDS: &[&str] = &["image", "objects"];
 
 /// The folder of the tables.
 const VERSION: &str = "v1.0-fogbank";
-/// Classes that are exported unless others are asked for: people and vehicles.
-const MOVERS: std::ops::RangeInclusive<u64> = 24..=33;
 
 /// nuScenes' category of a class; classes that it lacks are named after ours.
 fn category(class: &str) -> String {
@@ -88,7 +86,7 @@ impl<'a> Nuscenes<'a> {
         })
     }
 
-    /// Whether a thing is to be annotated.
+    /// Whether a thing is to be annotated: people and vehicles, unless classes are asked for.
     fn keeps(&self, object: &Value) -> bool {
         let chosen = !self.job.options.classes.is_empty();
         let mover = object["class_id"].as_u64().is_some_and(|id| MOVERS.contains(&id));

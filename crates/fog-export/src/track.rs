@@ -100,6 +100,16 @@ impl Rig {
         };
         Ok(Self { cameras, stereo })
     }
+
+    /// Distance of the two cameras of a stereo pair, m; 0 where there is none.
+    pub(crate) fn baseline_m(&self) -> f64 {
+        self.stereo.as_ref().map_or(0.0, |(_, _, baseline_m)| *baseline_m)
+    }
+
+    /// Whether a frame is of the right camera of a stereo pair.
+    pub(crate) fn is_right(&self, plan: &PlanFrame) -> bool {
+        self.stereo.as_ref().is_some_and(|(_, right, _)| camera(plan) == Some(right))
+    }
 }
 
 fn stereo(left: &PlanFrame, right: &PlanFrame) -> Option<(String, String, f64)> {

@@ -70,14 +70,14 @@ impl Filter {
     /// A path that no frame has.
     pub fn matches(&self, frames: &[FrameSpec]) -> Result<Vec<bool>, PlanError> {
         let documents: Vec<Value> = frames.iter().map(|frame| json!(frame)).collect();
-        self.matches_json(&documents)
+        self.matches_json(&documents.iter().collect::<Vec<_>>())
     }
 
     /// As [`Filter::matches`], of frames as `fogbank plan --json` prints them.
     ///
     /// # Errors
     /// A path that no frame has.
-    pub fn matches_json(&self, documents: &[Value]) -> Result<Vec<bool>, PlanError> {
+    pub fn matches_json(&self, documents: &[&Value]) -> Result<Vec<bool>, PlanError> {
         let mut matching = vec![true; documents.len()];
         for condition in &self.conditions {
             let found: Vec<Option<&Value>> =
@@ -90,7 +90,7 @@ impl Filter {
         Ok(matching)
     }
 
-    fn unknown(&self, path: &str, documents: &[Value]) -> PlanError {
+    fn unknown(&self, path: &str, documents: &[&Value]) -> PlanError {
         let mut paths = Vec::new();
         for document in documents.iter().take(64) {
             if let Some(axes) = document["axes"].as_object() {

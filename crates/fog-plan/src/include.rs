@@ -1,7 +1,6 @@
 //! `include`: other files that a configuration is laid over.
 
 use std::{
-    io::Read,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -12,7 +11,7 @@ use crate::{
     node::{Node, Value},
     origin::{Origin, Source},
     set::remove,
-    yaml,
+    text_file, yaml,
 };
 
 /// The key, at the top of a file.
@@ -21,21 +20,15 @@ pub(crate) const KEY: &str = "include";
 const MAX_DEPTH: usize = 16;
 /// Most files that one configuration is made of.
 const MAX_FILES: usize = 100;
-/// Largest configuration file in bytes: anything bigger is another kind of file.
-const MAX_BYTES: u64 = 16 << 20;
+/// Largest configuration file in MiB: anything bigger is another kind of file.
+const MAX_MIB: u64 = 16;
 
 /// The text of a configuration file.
 ///
 /// # Errors
 /// If it cannot be read, is larger than 16 MiB or no UTF-8.
 pub(crate) fn read_text(path: &Path) -> std::io::Result<String> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-    let refuse = |text: &str| std::io::Error::new(std::io::ErrorKind::InvalidData, text);
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(refuse("larger than 16 MiB: not a configuration"));
-    }
-    String::from_utf8(bytes).map_err(|_| refuse("not UTF-8 text"))
+    text_file::read_up_to(path, MAX_MIB, ": not a configuration")
 }
 
 /// Lays the tree of the file `name` over the files that it includes, and takes the key out. Their paths are relative to the

@@ -68,7 +68,7 @@ impl DataSet {
     /// By finished frame, whether it meets a condition.
     fn matches(&self, py: Python<'_>, condition: &str) -> PyResult<Vec<bool>> {
         let matches = py.detach(|| {
-            let documents: Vec<Value> = self.frames.iter().map(|frame| frame.spec.clone()).collect();
+            let documents: Vec<&Value> = self.frames.iter().map(|frame| &frame.spec).collect();
             Filter::parse(condition)?.matches_json(&documents)
         });
         matches.map_err(|e| plan_exception(&e))

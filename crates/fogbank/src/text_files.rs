@@ -3,8 +3,6 @@
 
 use crate::error::Error;
 use std::collections::{BTreeMap, HashMap};
-use std::fs::File;
-use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 /// Files by their path as written.
@@ -52,19 +50,7 @@ impl TextFiles {
     }
 }
 
-/// Largest text file in bytes.
-const MAX_BYTES: u64 = 256 << 20;
-
 /// The text of a file, if it is not too large.
 pub(crate) fn read(path: &Path) -> Result<String, Error> {
-    let text = || {
-        let mut text = String::new();
-        let read = File::open(path)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
-        if read as u64 > MAX_BYTES {
-            let what = format!("larger than {} MiB", MAX_BYTES >> 20);
-            return Err(io::Error::new(io::ErrorKind::InvalidData, what));
-        }
-        Ok(text)
-    };
-    text().map_err(|source| Error::Read { path: path.to_owned(), source })
+    fog_plan::read_table(path).map_err(|source| Error::Read { path: path.to_owned(), source })
 }

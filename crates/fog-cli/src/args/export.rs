@@ -40,7 +40,7 @@ pub(crate) struct ExportArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) classes: Vec<String>,
     /// MiB up to which a tar (webdataset) or Parquet file (huggingface) is filled, 1 and up; one frame always fits.
-    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "MIB", default_value_t = fog_export::SHARD_SIZE_MIB, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) shard_size: u32,
     /// Print errors only.
     #[arg(long, short)]

@@ -2,24 +2,19 @@
 
 use crate::args::ExportArgs;
 use crate::listener::stop_on_request;
+use crate::pace::{self, Pace};
 use crate::print;
 use anyhow::Result;
-use fog_export::{Format, Options, Progress};
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use fog_export::{Options, Progress};
+use indicatif::ProgressBar;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
-
-/// Seconds between progress lines where no terminal shows a bar.
-const LINE_SECONDS: u64 = 10;
+use std::sync::{Arc, Mutex};
 
 pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode> {
     let options = Options {
         classes: args.classes.clone(),
-        shard_size_mib: takes_shards(args.format).then_some(args.shard_size),
+        shard_size_mib: args.format.is_sharded().then_some(args.shard_size),
         force: args.force,
     };
     let shown = Shown::new(args.quiet, stop_on_request()?);
@@ -44,31 +39,17 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode> {
     Ok(ExitCode::from(u8::from(left_out > 0)))
 }
 
-/// Whether the size of files is of account to a format.
-fn takes_shards(format: Format) -> bool {
-    matches!(format, Format::WebDataset | Format::HuggingFace)
-}
-
-/// A bar with ETA on a terminal, now and then a line elsewhere.
+/// Where the user sees how far it is, and can stop it.
 struct Shown {
     quiet: bool,
     bar: ProgressBar,
     stop: Arc<AtomicBool>,
-    lines: Mutex<Lines>,
-}
-
-struct Lines {
-    started: Instant,
-    printed: Instant,
+    pace: Mutex<Pace>,
 }
 
 impl Shown {
     fn new(quiet: bool, stop: Arc<AtomicBool>) -> Self {
-        let visible = !quiet && std::io::stderr().is_terminal();
-        let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let now = Instant::now();
-        let lines = Mutex::new(Lines { started: now, printed: now });
-        Self { quiet, bar: ProgressBar::with_draw_target(None, target), stop, lines }
+        Self { quiet, bar: pace::bar(quiet), stop, pace: Mutex::new(Pace::new()) }
     }
 
     fn goes_on(&self) -> bool {
@@ -78,12 +59,10 @@ impl Shown {
 
 impl Progress for Shown {
     fn begin(&self, frames: u64) -> bool {
-        let style = ProgressStyle::with_template("  {bar:40} {pos}/{len} {msg} ETA {eta}");
-        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        self.bar.set_style(pace::style("  {bar:40} {pos}/{len} {msg} ETA {eta}"));
         self.bar.set_length(frames);
-        if let Ok(mut lines) = self.lines.lock() {
-            let now = Instant::now();
-            *lines = Lines { started: now, printed: now };
+        if let Ok(mut pace) = self.pace.lock() {
+            *pace = Pace::new();
         }
         self.goes_on()
     }
@@ -92,15 +71,11 @@ impl Progress for Shown {
         self.bar.set_message(id.to_owned());
         self.bar.inc(1);
         let (done, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
-        if let Ok(mut lines) = self.lines.lock()
-            && !self.quiet
+        if !self.quiet
             && self.bar.is_hidden()
-            && done < all
-            && lines.printed.elapsed().as_secs() >= LINE_SECONDS
+            && let Ok(mut pace) = self.pace.lock()
+            && let Some(left) = pace.line(done as f64 / all as f64)
         {
-            lines.printed = Instant::now();
-            let left = lines.started.elapsed().as_secs_f64() * (all - done) as f64 / done as f64;
-            let left = HumanDuration(Duration::from_secs_f64(left.max(1.0)));
             print::news(format_args!("  {done} of {all} frames, about {left} left"));
         }
         self.goes_on()

@@ -7,14 +7,12 @@ use serde_json::{Value, json};
 
 use super::outline::outlines;
 use crate::Result;
-use crate::classes::Classes;
+use crate::classes::{Classes, MOVERS};
 use crate::frame::Frame;
 use crate::summary::Losses;
 
 /// Labels of Cityscapes are up to this one.
 const LAST: u16 = 33;
-/// Labels whose things are told apart.
-const WITH_INSTANCES: std::ops::RangeInclusive<u8> = 24..=33;
 /// −1 in Cityscapes: what is under the plate has its place.
 const LICENSE_PLATE: u16 = 34;
 
@@ -72,7 +70,7 @@ impl Labels {
     /// 1000 · label + number for things that are told apart, else the label.
     pub(super) fn instance_ids(&self) -> Vec<u16> {
         let id = |(&id, thing): (&u8, &u16)| match self.numbers.get(thing) {
-            Some(number) if WITH_INSTANCES.contains(&id) => 1000 * u16::from(id) + number,
+            Some(number) if MOVERS.contains(&u64::from(id)) => 1000 * u16::from(id) + number,
             _ => u16::from(id),
         };
         self.ids.iter().zip(&self.things).map(id).collect()
@@ -119,7 +117,7 @@ impl Labels {
 fn numbers(ids: &[u8], things: &[u16]) -> HashMap<u16, u16> {
     let mut seen: BTreeMap<u16, u8> = BTreeMap::new();
     for (&id, &thing) in ids.iter().zip(things) {
-        if thing != 0 && WITH_INSTANCES.contains(&id) {
+        if thing != 0 && MOVERS.contains(&u64::from(id)) {
             seen.entry(thing).or_insert(id);
         }
     }

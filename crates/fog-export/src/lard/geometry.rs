@@ -91,19 +91,14 @@ impl Seen {
         self.points.iter().all(inside)
     }
 
-    /// The corners by column: of the first edition A to D as one meets them reading the image, of the second by their place on
-    /// the runway.
+    /// The corners by column.
     pub(super) fn corners(&self, edition: Edition, width: f64) -> BTreeMap<String, f64> {
         let mut points = self.points;
-        let names = match edition {
-            Edition::V1 => {
-                points.sort_by(|a, b| (a[1] * width + a[0]).total_cmp(&(b[1] * width + b[0])));
-                ["A", "B", "C", "D"]
-            }
-            Edition::V2 => ["TR", "TL", "BL", "BR"],
-        };
+        if edition == Edition::V1 {
+            points.sort_by(|a, b| (a[1] * width + a[0]).total_cmp(&(b[1] * width + b[0])));
+        }
         let both = |(name, [x, y]): (&str, [f64; 2])| [(format!("x_{name}"), x), (format!("y_{name}"), y)];
-        names.into_iter().zip(points).flat_map(both).collect()
+        edition.corners().into_iter().zip(points).flat_map(both).collect()
     }
 
     /// Distances and angles by the definitions of the edition's code.

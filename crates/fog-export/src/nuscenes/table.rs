@@ -8,21 +8,20 @@ use crate::folder::{Folder, Sink};
 /// A table that is being written.
 pub(super) struct Table {
     sink: Sink,
-    rows: u64,
+    is_empty: bool,
 }
 
 impl Table {
     pub(super) fn create(folder: &Folder, name: &str) -> Result<Self> {
         let mut sink = folder.create(name)?;
         sink.write("[")?;
-        Ok(Self { sink, rows: 0 })
+        Ok(Self { sink, is_empty: true })
     }
 
     /// Adds a record.
     pub(super) fn push(&mut self, row: &Value) -> Result<()> {
-        self.sink.write(format!("{}\n{row}", if self.rows == 0 { "" } else { "," }))?;
-        self.rows += 1;
-        Ok(())
+        let is_first = std::mem::take(&mut self.is_empty);
+        self.sink.item(is_first, row)
     }
 
     /// Ends the list.

@@ -2,8 +2,6 @@
 
 use std::{
     collections::HashMap,
-    fs::File,
-    io::{self, Read as _},
     path::{Path as FilePath, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
@@ -11,7 +9,7 @@ use std::{
 use fog_core::attitude::Attitude;
 
 use super::{MAX_POSES, Path, PathPose};
-use crate::{ranges, rig::PoseSpec};
+use crate::{ranges, rig::PoseSpec, text_file::read_table};
 
 /// CSV files read so far: each once, so that all frames see one content.
 #[derive(Clone, Debug, Default)]
@@ -19,9 +17,6 @@ pub(crate) struct CsvFiles(Arc<Mutex<HashMap<PathBuf, Read>>>);
 
 /// The path in a file, or why there is none.
 type Read = Result<Arc<Path>, String>;
-
-/// Largest file in bytes: a million poses of 200 characters take less.
-const MAX_BYTES: u64 = 256 << 20;
 
 const POSITION: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 const ANGLES: [&str; 3] = ["heading_deg", "pitch_deg", "roll_deg"];
@@ -35,24 +30,12 @@ impl CsvFiles {
     pub(crate) fn path(&self, file: &FilePath) -> Result<Arc<Path>, String> {
         let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let read = || {
-            let text = read_text(file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+            let text =
+                read_table(file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
             parse(&text).map(Arc::new).map_err(|message| format!("{}:{message}", file.display()))
         };
         files.entry(file.to_owned()).or_insert_with(read).clone()
     }
-}
-
-/// A file's text, if it is not too large.
-fn read_text(file: &FilePath) -> io::Result<String> {
-    let mut text = String::new();
-    let read = File::open(file)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
-    if read as u64 > MAX_BYTES {
-        return Err(io::Error::new(
-            io::ErrorKind::InvalidData,
-            format!("larger than {} MiB", MAX_BYTES >> 20),
-        ));
-    }
-    Ok(text)
 }
 
 /// A cell as messages quote it.

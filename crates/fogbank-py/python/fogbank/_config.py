@@ -11,7 +11,6 @@ from . import _fogbank
 from ._errors import ConfigError
 
 
-
 class Plan(Sequence[dict[str, Any]]):
     """The frames of a configuration, as :func:`plan` makes it.
 

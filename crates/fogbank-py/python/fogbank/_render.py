@@ -65,7 +65,7 @@ def sweep(
     """Renders the frames of a configuration that a data set lacks, and opens it.
 
     What is done stays done: call it again after Ctrl-C. A frame that fails is warned of, recorded, and the others go on:
-    see ``counts``. For worker processes, shards and cloud stores there is the command line, whose data sets are the same.
+    see ``counts``. For worker processes and shards there is the command line, whose data sets are the same.
 
     :param config: as of :func:`fogbank.plan`.
     :param out: folder of the data set.
