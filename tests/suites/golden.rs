@@ -2,7 +2,8 @@
 //!
 //! They say that the picture stays the same in expectation whatever becomes of the estimators: no pixel is compared but in
 //! standard errors, so any unbiased change of the tracer passes. A picture that is *meant* to change (another scene,
-//! another material, other units) is stored anew, and the reason told in the commit:
+//! another material, other units) is stored anew, and the reason told in the commit; so is one that has passed with an estimator
+//! whose errors are much smaller than the stored ones, for the comparison is as sharp as those:
 //!
 //!     cargo test --release -p fog-tests --test slow golden::store -- --ignored          (minutes)
 //!     GOLDEN=lamps cargo test --release -p fog-tests --test slow golden::store -- --ignored
@@ -198,9 +199,7 @@ fn compare(golden: &Golden) {
         assert!(worst < 8.0, "{name}, channel {c}: a pixel is off by {worst} standard errors");
         let allowed = seen + 6.0 * (2.0 * seen).sqrt();
         assert!(chi_square < allowed, "{name}, channel {c}: chi² {chi_square} of {seen} pixels");
-        // Stratification makes it less than one a pixel; so does an estimator that has become better than the stored one: by
-        // night twins of emitting places took away two fifths of the variance.
-        assert!(chi_square > 0.15 * seen, "{name}, channel {c}: errors are overestimated, chi² {chi_square}");
+        assert!(chi_square > 0.25 * seen, "{name}, channel {c}: errors are overestimated, chi² {chi_square}");
     }
 }
 

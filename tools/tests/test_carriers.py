@@ -5,21 +5,18 @@
 import importlib
 import io
 import json
-import os
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import webdataset
 import yaml
+from conftest import rendered, run
 from fogbank_tools.dataset import plan, read_frame
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from mcap.reader import make_reader
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parents[2]
 CONFIG = """
 version: 1
 name: carriers.v1
@@ -38,11 +35,7 @@ sweep:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    base = tmp_path_factory.mktemp("carriers")
-    (base / "carriers.yaml").write_text(CONFIG)
-    program = os.environ["FOGBANK"]
-    subprocess.run([program, "sweep", base / "carriers.yaml", "--out", base / "out", "--quiet"], check=True, cwd=ROOT)
-    return base / "out"
+    return rendered(tmp_path_factory, "carriers", CONFIG)
 
 
 @pytest.fixture(scope="module")
@@ -50,8 +43,7 @@ def export(folder):
     def made(name, again=""):
         out = folder.parent / f"{name}{again}"
         if not out.is_dir():
-            command = [os.environ["FOGBANK"], "export", folder, "--format", name, "--out", out, "--quiet"]
-            subprocess.run([*command, "--shard-size", "1"], check=True, cwd=ROOT)
+            run("export", folder, "--format", name, "--out", out, "--quiet", "--shard-size", "1", check=True)
         return out
 
     return made

@@ -1,11 +1,10 @@
 """The checks against a data set that the real program makes, and against damaged copies of it."""
 
-import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import rendered
 from fogbank_tools.check import check_frame
 from fogbank_tools.dataset import plan, read_frame
 
@@ -27,11 +26,7 @@ sweep:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    base = tmp_path_factory.mktemp("tools")
-    (base / "tools.yaml").write_text(CONFIG)
-    program = os.environ["FOGBANK"]
-    subprocess.run([program, "sweep", base / "tools.yaml", "--out", base / "out", "--quiet"], check=True, cwd=ROOT)
-    return base / "out"
+    return rendered(tmp_path_factory, "tools", CONFIG)
 
 
 def test_frames_are_as_documented(folder):

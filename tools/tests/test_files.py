@@ -1,10 +1,8 @@
 """The EXR files as `docs/files.md` has them, seen by OpenEXR and OpenCV and by an own reader of Cryptomatte."""
 
 import json
-import os
 import re
 import struct
-import subprocess
 from pathlib import Path
 
 import cv2
@@ -12,6 +10,7 @@ import mmh3
 import numpy as np
 import OpenEXR
 import pytest
+from conftest import rendered
 from fogbank_tools.dataset import plan, read_frame
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,11 +30,7 @@ outputs: [image, hdr, depth, distance, transmittance, tau, direct, airlight, sta
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    base = tmp_path_factory.mktemp("files")
-    (base / "files.yaml").write_text(CONFIG)
-    program = os.environ["FOGBANK"]
-    subprocess.run([program, "sweep", base / "files.yaml", "--out", base / "out", "--quiet"], check=True, cwd=ROOT)
-    return base / "out"
+    return rendered(tmp_path_factory, "files", CONFIG)
 
 
 @pytest.fixture(scope="module")

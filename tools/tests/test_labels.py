@@ -1,15 +1,12 @@
 """Labels as Python's readers see them: OpenCV, OpenEXR and Pillow agree on the files, and geometry on the labels."""
 
-import os
-import subprocess
-from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from conftest import rendered
 from fogbank_tools.dataset import classes, plan, read_frame
 
-ROOT = Path(__file__).resolve().parents[2]
 CONFIG = """
 version: 1
 name: labels
@@ -24,11 +21,7 @@ outputs: [image, hdr, depth, normals, position, albedo, semantic, instance, flow
 
 @pytest.fixture(scope="module")
 def frames(tmp_path_factory):
-    base = tmp_path_factory.mktemp("labels")
-    (base / "labels.yaml").write_text(CONFIG)
-    program = os.environ["FOGBANK"]
-    subprocess.run([program, "sweep", base / "labels.yaml", "--out", base / "out", "--quiet"], check=True, cwd=ROOT)
-    folder = base / "out"
+    folder = rendered(tmp_path_factory, "labels", CONFIG)
     return folder, [read_frame(folder, line["id"]) for line in plan(folder)]
 
 
